@@ -51,7 +51,10 @@ def cost(words: list[str], environment: dict[str, str] | None = None) -> Cost:
 
 @contextmanager
 def empty_cache() -> Iterator[dict[str, str]]:
-    """The environment of a person who has never run Granum: nothing compiled is kept yet."""
+    """The environment of a person who has installed Granum and never run it: nothing traced or compiled is
+    kept yet, but Python's own bytecode is.
+    """
     with tempfile.TemporaryDirectory() as folder:
-        kept = {name: value for name, value in os.environ.items() if not name.startswith("JAX_")}
+        own = ("JAX_", "PYTHONDONTWRITEBYTECODE")
+        kept = {name: value for name, value in os.environ.items() if not name.startswith(own)}
         yield kept | {"XDG_CACHE_HOME": folder}

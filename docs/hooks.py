@@ -26,6 +26,7 @@ from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import pretty_unit
 from granum.reports.mathml import mathml
 from granum.reports.quantities import limit_rows, value_text
+from granum.reports.utilities import utility_rows
 
 ROOT = Path(__file__).parent.parent
 WORDS = {
@@ -76,6 +77,7 @@ DOMAIN_TITLES = {
         "centrifuges": "Centrifuges",
         "crystallization": "Crystallization",
         "drying": "Drying",
+        "dust": "Dust collection",
         "studies": "Studies",
         "costs": "Costs",
     },
@@ -93,6 +95,7 @@ DOMAIN_TITLES = {
         "centrifuges": "Centrifugation",
         "crystallization": "Cristallisation",
         "drying": "Séchage",
+        "dust": "Dépoussiérage",
         "studies": "Études",
         "costs": "Coûts",
     },
@@ -254,6 +257,13 @@ def _section(card: Card, words: list[str]) -> str:
             for r in limit_rows(card)
         )
         head = "".join(f"<th>{word}</th>" for word in (_("practical limit"), _("allowed"), _("source")))
+        parts.append(f"<table class='limits'><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>\n")
+    if card.utilities:
+        rows = "".join(
+            f"<tr><td>{html.escape(label)}</td><td>{html.escape(source)}</td></tr>"
+            for label, source in utility_rows(card)
+        )
+        head = "".join(f"<th>{word}</th>" for word in (_("utility"), _("source")))
         parts.append(f"<table class='limits'><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>\n")
     for name, limits in card.fitted.items():
         p = next((p for p in (*card.parameters, *card.outputs) if p.name == name), None)

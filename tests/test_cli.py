@@ -71,7 +71,7 @@ def test_terminal_velocity_with_source() -> None:
     code, out, _err = granum(*TERMINAL, *GOOD, "--json")
     data = json.loads(out)
     assert code == 0
-    assert set(data) == {"card", "inputs", "outputs", "flags", "source"}
+    assert set(data) == {"card", "inputs", "outputs", "beside", "flags", "source"}
     # U notes, exercise IV.8.4: below the Stokes value 5.28 mm/s by the inertia at Re ≈ 0.36 (about 7 %)
     assert data["outputs"]["terminal_velocity"]["value"] == pytest.approx(4.92e-3, rel=0.01)
     assert data["outputs"]["terminal_velocity"]["unit"] == "m/s"

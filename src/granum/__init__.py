@@ -1,6 +1,8 @@
 """Granum: fluid–solid unit operations from lab data to process line.
 
-``granum.particles``, ``granum.filtration`` … load when first used; ``granum.read`` opens a case file.
+``granum.particles``, ``granum.filtration`` … load when first used; ``granum.read`` opens a case file;
+``granum.alone`` is a piece of equipment with an ordinary feed, ``granum.search`` finds a card by what people
+call it.
 """
 
 from __future__ import annotations
@@ -34,6 +36,7 @@ _SUBPACKAGES = (
     "centrifuges",
     "crystallization",
     "drying",
+    "dust",
     "flowsheet",
     "studies",
     "costs",
@@ -50,8 +53,12 @@ def __getattr__(name: str) -> Any:
         return import_module(f"granum.{name}")
     if name == "read":
         return import_module("granum.cases").read
+    if name == "alone":
+        return import_module("granum.cases").alone
+    if name == "search":
+        return import_module("granum.core.search").search
     raise AttributeError(f"granum has no '{name}'")
 
 
 def __dir__() -> list[str]:
-    return sorted((*_SUBPACKAGES, "read", "__version__"))
+    return sorted((*_SUBPACKAGES, "alone", "read", "search", "__version__"))

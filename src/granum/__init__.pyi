@@ -9,6 +9,7 @@ from granum import costs as costs
 from granum import crystallization as crystallization
 from granum import cyclones as cyclones
 from granum import drying as drying
+from granum import dust as dust
 from granum import estimation as estimation
 from granum import filtration as filtration
 from granum import flowsheet as flowsheet
@@ -22,6 +23,8 @@ from granum import reports as reports
 from granum import settling as settling
 from granum import streams as streams
 from granum import studies as studies
+from granum.cases import alone as alone
 from granum.cases import read as read
+from granum.core.search import search as search
 
 __version__: str

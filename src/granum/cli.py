@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,6 +11,7 @@ import typer
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.garbage import collect_seldom
 from granum.core.i18n import _
+from granum.core.written import interval
 from granum.shell import (
     SHARED,
     Commands,
@@ -21,6 +22,7 @@ from granum.shell import (
     one_message,
     pairs,
     tell_version,
+    to_the_end,
 )
 
 if TYPE_CHECKING:
@@ -60,27 +62,75 @@ def _options(
 
 @app.command()
 @one_message
-def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
-    """Evaluate a formula, a law or a procedure."""
+def calc(
+    key: Key,
+    inputs: Pairs = None,
+    as_json: Json = False,
+    solve: Annotated[
+        str, typer.Option(help="An input to find: the wanted result stands among the inputs.")
+    ] = "",
+    report: Annotated[Path | None, typer.Option(help="Write a calculation sheet (HTML).")] = None,
+) -> None:
+    """Evaluate a formula, a law or a procedure; solve a piece of equipment alone.
+
+    Equipment begins with an ordinary feed; what enters is said by port: feed.solid_flow=400kg/h,
+    mixture.solids=quartz.
+    """
     from granum.core import registry
 
     thing = registry.find(key)
+    if thing.card.sort == "equipment":
+        _operate(key, pairs(inputs), as_json)
+        return
     if not hasattr(thing, "evaluate"):
-        hint = {"lab test": "granum fit {key} data.csv …", "equipment": "granum run case.toml"}.get(
-            thing.card.sort, "granum show {key}"
-        )
+        hint = {"lab test": "granum fit {key} data.csv …"}.get(thing.card.sort, "granum show {key}")
         raise InputError(
             _("'{key}' is a {sort}, which 'calc' cannot evaluate; use: {hint}").format(
                 key=key, sort=_(thing.card.sort), hint=hint.format(key=key)
             )
         )
-    result = thing.evaluate(**pairs(inputs))
+    given, within = pairs(inputs), {}
+    if solve:
+        from granum.studies.inverse import find_input
+
+        result = find_input(thing, solve, **given).result
+    elif thing.card.sort != "law" and any(map(interval, given.values())):
+        from granum.studies.intervals import with_intervals
+
+        result, within = with_intervals(thing, **given)
+    else:
+        result = thing.evaluate(**given)
+    if report is not None:
+        from granum.core.files import write_atomic
+        from granum.reports.calculation import calculation_sheet
+        from granum.studies.intervals import stated
+
+        told = {name: (i.text, i.how) for name, i in within.items()}
+        typed = stated(thing.card, given) if within else {}
+        write_atomic(report, calculation_sheet(thing, result, within=told, stated=typed))
     if as_json:
-        emit(result.as_json())
+        emit(
+            result.as_json() | ({"intervals": {n: i._asdict() for n, i in within.items()}} if within else {})
+        )
     else:
         from granum.reports.terminal import print_result
 
-        print_result(result)
+        print_result(result, {name: f"{i.text} ({i.how})" for name, i in within.items()})
+        if report is not None:
+            print(_("saved to {path}").format(path=report))
+
+
+def _operate(key: str, inputs: Mapping[str, str], as_json: bool) -> None:
+    """A piece of equipment in a line of its own."""
+    from granum.cases.alone import case_text
+    from granum.cases.reading import read_text
+    from granum.reports.terminal_run import print_run
+
+    outcome = read_text(case_text(key, inputs), name=key).solve()
+    if as_json:
+        emit(outcome.as_json())
+    else:
+        print_run(outcome)
 
 
 @app.command()
@@ -359,7 +409,11 @@ def chart(
 @one_message
 def list_cards(
     words: Annotated[
-        list[str] | None, typer.Argument(help="Show only cards that contain these words.", show_default=False)
+        list[str] | None,
+        typer.Argument(
+            help="Show only cards that these words mean, in either language, the best first.",
+            show_default=False,
+        ),
     ] = None,
     as_json: Json = False,
     sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "",
@@ -367,9 +421,13 @@ def list_cards(
     """List the cards."""
     from granum.core.index import entries
 
-    needles = " ".join(words or ()).lower().split()
-    cards = [c for c in entries().values() if not sort or c.sort == sort]
-    found = [c for c in cards if c.answers(needles)] or _described(cards, needles)
+    wanted = " ".join(words or ())
+    cards = list(entries().values())
+    if wanted.strip():
+        from granum.core.search import search
+
+        cards = search(wanted) or _described(cards, wanted.lower().split())
+    found = [c for c in cards if not sort or c.sort == sort]
     if as_json:
         emit(
             {
@@ -427,7 +485,7 @@ def main() -> None:
     """Entry point of the ``granum`` command."""
     collect_seldom()
     keep_compiled_code()
-    app()
+    to_the_end(app)
 
 
 if __name__ == "__main__":

@@ -66,8 +66,8 @@ class Page:
         self.browser.get(f"{self.address}/style.css")
         self.browser.execute_script(
             (
-                "localStorage.clear(); sessionStorage.clear(); localStorage.setItem('granum-theme', "
-                "arguments[0])"
+                "localStorage.clear(); sessionStorage.clear(); indexedDB.deleteDatabase('granum'); "
+                "localStorage.setItem('granum-theme', arguments[0])"
             ),
             theme,
         )
@@ -107,6 +107,7 @@ class Page:
     def type(self, selector: str, text: str, into: str = "") -> Any:
         """Type as people do: the field emptied, then key by key."""
         field = self.one(selector)
+        self.browser.execute_script("arguments[0].closest('details')?.setAttribute('open', '')", field)
         field.send_keys(Keys.CONTROL, "a")
         field.send_keys(Keys.BACKSPACE)
         for key in text:

@@ -16,6 +16,8 @@ from granum.core.conversion import convert
 from granum.core.errors import GranumError
 from granum.core.parameters import Parameter
 from granum.core.units import from_si, pretty_unit, to_si
+from granum.core.written import interval
+from granum.studies.intervals import spread_of
 
 ODD = (
     "",
@@ -152,6 +154,9 @@ class Typist:
         self.key, self.language = key, language
         self.page.open(f"calculate/{key}", language)
         self.page.browser.execute_script(RECORDED)
+        self.page.browser.execute_script(
+            "document.querySelectorAll('details.more').forEach((d) => (d.open = true))"
+        )
         thing = registry.find(key).card
         shown = {
             row["name"] for row in card_form(key)["parameters"] if row.get("kind") and not row["options"]
@@ -210,6 +215,10 @@ class Typist:
     def understood(self, p: Parameter) -> tuple[float, ...]:
         """The values that the link carries for a field, SI."""
         values = dict(parse_qsl(urlsplit(self.page.browser.current_url).fragment.partition("?")[2]))
+        within = interval(values[p.name])
+        if within is not None:
+            spread = spread_of(p, *within)
+            return spread.low, spread.high
         found = convert(values[p.name], p, several=True)
         return tuple(float(x) for x in np.atleast_1d(found))
 

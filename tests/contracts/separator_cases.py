@@ -13,6 +13,9 @@ from granum.centrifuges.equipment.liquids import DiscSeparator, NozzleSeparator,
 from granum.centrifuges.equipment.purifiers import DiscPurifier
 from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
+from granum.dust.equipment.bag_filter import BagFilter
+from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
+from granum.dust.equipment.settling_chamber import SettlingChamber
 from granum.fluidization.equipment.bed import FluidizedBed
 from granum.fluidization.equipment.liquid import LiquidFluidizedBed
 from granum.settling.equipment.api_separator import ApiSeparator
@@ -26,6 +29,7 @@ from granum.settling.equipment.clarifiers import (
 from granum.settling.equipment.flocculator import Flocculator
 from granum.settling.equipment.thickener import Thickener
 from granum.settling.velocities import Vesilind
+from granum.streams.equipment.movers import Fan, Pump
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
 
@@ -230,6 +234,28 @@ UNITS = {
         ),
     ),
     "gas cyclone": (dusty, lambda f, a, b, c: GasCyclone(jnp.sqrt(f.gas_volume_flow / (0.5 + 2.0 * a)))),
+    "bag filter": (
+        dusty,
+        lambda f, a, b, c: BagFilter(
+            f.gas_volume_flow / (0.005 + 0.06 * a), 60.0 + 1800.0 * b, 10.0 ** (4.0 + c)
+        ),
+    ),
+    "precipitator": (
+        dusty,
+        lambda f, a, b, c: ElectrostaticPrecipitator(
+            f.gas_volume_flow * (5.0 + 150.0 * a),
+            f.gas_volume_flow / (0.5 + 2.0 * b),
+            1e5 + 4e5 * c,
+        ),
+    ),
+    "settling chamber": (
+        dusty,
+        lambda f, a, b, c: SettlingChamber(
+            2.0 + 10.0 * a, 1.0 + 3.0 * b, f.gas_volume_flow / (0.2 + 2.0 * c)
+        ),
+    ),
+    "fan": (dusty, lambda f, a, b, c: Fan(10.0 ** (2.0 + 2.0 * a), 0.4 + 0.4 * b, 0.8 + 0.15 * c)),
+    "pump": (slurry, lambda f, a, b, c: Pump(10.0 ** (4.0 + 2.0 * a), 0.4 + 0.4 * b, 0.8 + 0.15 * c)),
     "fluidized bed": (
         dusty,
         lambda f, a, b, c: FluidizedBed(

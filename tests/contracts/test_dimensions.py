@@ -30,12 +30,15 @@ BASE = {
     "[temperature]": 1.21,
     "[substance]": 0.83,
     "[currency]": 1.11,
+    "[current]": 0.59,
 }
 CONSTANTS = {
     "STANDARD_GRAVITY": "m/s^2",
     "GAS_CONSTANT": "J/(mol*K)",
     "BOLTZMANN": "J/K",
     "AVOGADRO": "1/mol",
+    "ELEMENTARY_CHARGE": "A*s",
+    "VACUUM_PERMITTIVITY": "A*s/(V*m)",
     "STEFAN_BOLTZMANN": "W/(m^2*K^4)",
     "STANDARD_ATMOSPHERE": "Pa",
     "ZERO_CELSIUS": "K",

@@ -26,6 +26,7 @@ from granum.flowsheet.findings import CLOSURE, LEAST, findings
 
 STEP = 1e-5
 HUMID = {
+    "dust.venturi_scrubber",
     "streams.adiabatic_humidifier",
     "streams.condenser_cooler",
     "streams.dehumidifying_coil",

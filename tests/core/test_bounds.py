@@ -238,7 +238,7 @@ def test_the_factor_of_saffman_and_turner_is_in_full() -> None:
 def test_a_bare_celsius_number_is_asked_about_everywhere(given: object) -> None:
     water = registry.find("materials.water_density")
     for ask in (water, water.evaluate):
-        with pytest.raises(InputError, match=r"read in kelvin. Did you mean -?\d+ °C"):
+        with pytest.raises(InputError, match=r"read in kelvin. Did you mean −?\d+ °C"):
             ask(temperature=given)
 
 

@@ -59,7 +59,8 @@ OF_ARRAYS: dict[str, Callable[[Any, Any], Any]] = {
     "sorted": lambda x, v: (jnp.sort(v), jnp.argsort(x, 0), jnp.median(x), jnp.unique(v, size=4)),
     "interpolated": lambda x, v: (jnp.interp(x, jnp.sort(v), v), jnp.polyval(v, x)),
     "solved": lambda x, v: (
-        jnp.linalg.solve(x[:, :3] + 9.0 * jnp.eye(3), v[:3]), jnp.linalg.lstsq(x[:, :2], v[:3])[0],
+        lax.linalg.lu(x[:, :3]), jnp.linalg.solve(x[:, :3] + 9.0 * jnp.eye(3), v[:3]),
+        jnp.linalg.lstsq(x[:, :2], v[:3])[0],
         jnp.linalg.qr(x[:, :2]), jnp.max(x[:0], initial=1.0),
         solve_triangular(x[:, :3] + 9.0 * jnp.eye(3), v[:3], trans=1),
         solve_triangular(x[:, :3], x, lower=True, unit_diagonal=True),

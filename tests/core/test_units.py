@@ -203,7 +203,10 @@ def test_pint_quantities_of_any_registry_are_accepted() -> None:
 
 def test_numbers_as_people_print_them() -> None:
     assert units.format_number(1.07e8) == "1.07 × 10⁸"
-    assert units.format_number(-9.98e-17, 2) == "-1 × 10⁻¹⁶"
+    assert units.format_number(-9.98e-17, 2) == "−1 × 10⁻¹⁶"
+    assert units.format_number(40533.0) == "40\u202f533"
+    assert units.format_number(-12345.6, 7) == "−12\u202f345.6"
+    assert units.show(1.05e-6, KINDS["Velocity"]) == "1.05 µm/s"
     assert units.format_number(0.0049167) == "0.004917"
     assert units.show(85e-6, KINDS["Length"]) == "85 µm"
     with language("fr"):

@@ -107,7 +107,7 @@ def test_a_stray_point_is_named_with_what_it_does():
     with language("fr"):
         (french,) = [f for f in leaf(0.93).fit().flags if f["flag"] == "stray point"]
     assert french["message"].startswith("Ligne 8 (")
-    assert "ne s'accorde pas" in french["message"]
+    assert "ne s’accorde pas" in french["message"]
 
 
 def test_a_bound_is_named_with_its_value():

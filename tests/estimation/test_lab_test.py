@@ -66,7 +66,10 @@ def test_same_data_in_any_dress(text, tmp_path):
         "ranges",
         "from",
     }
-    assert len(test.chart().data) == 4
+    drawn = test.chart().data  # band, model, data, and the residuals under them
+    assert len(drawn) == 5
+    assert drawn[-1].yaxis == "y2"
+    np.testing.assert_allclose(drawn[-1].y, 0.0, atol=1e-9)  # the points lie on the line
 
 
 def test_spreadsheet_and_file_objects():

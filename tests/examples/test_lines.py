@@ -9,7 +9,7 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 
-LINES = ("sewage-sludge", "ore-grinding", "batch-pharma", "starch-drying")
+LINES = ("sewage-sludge", "ore-grinding", "batch-pharma", "starch-drying", "spray-drying")
 
 
 @cache

@@ -117,7 +117,7 @@ def test_equal_densities_are_zero_and_flagged():
 
 
 def test_impossible_direction_has_no_size():
-    with pytest.raises(ApplicabilityError, match=r"denser than the fluid falls.*Given: velocity = -100 mm/s"):
+    with pytest.raises(ApplicabilityError, match=r"denser than the fluid falls.*Given: velocity = −100 mm/s"):
         terminal_diameter(velocity=-0.1, **SAND)
     assert np.isfinite(terminal_diameter(velocity=jnp.array([-0.1, 0.1]), **SAND)).tolist() == [False, True]
 

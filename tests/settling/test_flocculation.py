@@ -1,5 +1,4 @@
-"""Flocculation: tanks balanced one by one, limits of the law, flocs that settle as their fractal says; rakes
-and weirs.
+"""Flocculation: tanks balanced one by one, limits of the law, flocs that settle as their fractal says.
 """
 
 from __future__ import annotations
@@ -9,9 +8,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from granum.settling.equipment.clarifiers import CircularClarifier, Clarifier
+from granum.settling.equipment.clarifiers import Clarifier
 from granum.settling.equipment.flocculator import Flocculator, coarsen
-from granum.settling.formulas.basins import rake_torque_circular
 from granum.settling.formulas.flocculation import (
     aggregation_constant_shear,
     flocculation_ratio_tanks,
@@ -109,21 +107,3 @@ def test_flocculation_before_a_clarifier_pays():
     # left to the volume of the grains, a thin clay hardly joins: it needs sweep floc
     thin = Flocculator(volume=90.0, velocity_gradient=40.0).operate(feed=feed)
     assert 1.0 <= thin.figures.flocculation_ratio < made.figures.flocculation_ratio
-
-
-def test_rakes_and_weir_of_a_circular_clarifier():
-    """Ecomacchine: T [kgf m] = r² K with K = 20 kgf/m: 2000 kgf m for a radius of 10 m."""
-    assert rake_torque_circular(10.0, 20 * 9.80665) == pytest.approx(2000 * 9.80665)
-    feed = turbid()
-    unit = CircularClarifier(16.0, 3.0, 50.0)
-    made = unit.operate(feed=feed)
-    checks = {c.name: c for c in made.checks}
-    assert float(made.figures.rake_torque) == pytest.approx(200.0 * 64.0)
-    assert float(made.figures.shaft_power) == pytest.approx(200.0 * 64.0 * 0.05 / 8.0)
-    flow = float(made.outlets.overflow.slurry_volume_flow) * 3600
-    assert float(checks["flow over a meter of weir"].value) == pytest.approx(flow / (np.pi * 16.0))
-    assert float(checks["overflow rate"].value) == pytest.approx(
-        float(feed.slurry_volume_flow) * 3600 / (np.pi * 64.0)
-    )
-    short = CircularClarifier(16.0, 3.0, 50.0, weir_length=5.0).operate(feed=feed)
-    assert not {c.name: c.ok for c in short.checks}["flow over a meter of weir"]

@@ -9,12 +9,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from granum.app.forms import card_form, entry
+from granum.app.forms import card_form, entry, laws_with_parameters, options
+from granum.cases.building import share_of_feed
+from granum.cases.outline import Outline, outline, port_label, pretty, table_of
+from granum.cases.starting import listed
 from granum.core import registry
 from granum.core.errors import CaseError, GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
+from granum.flowsheet.drawing import ACROSS, Loose, draw
+from granum.materials.library import session
 
 FEED_KINDS = {
     "mass_flow": "MassFlow",
@@ -53,22 +58,99 @@ def _files_in(raw: Mapping[str, Any]) -> list[str]:
     mixture, fits = raw.get("mixture"), raw.get("fits")
     named = mixture.get("materials", []) if isinstance(mixture, dict) else []
     tables = fits.values() if isinstance(fits, dict) else []
-    data = [table.get("data") for table in tables if isinstance(table, dict)]
+    data = [
+        table.get("data")
+        for table in tables
+        if isinstance(table, dict) and "\n" not in str(table.get("data"))
+    ]
     return [
         str(name) for name in (*(named if isinstance(named, list) else [named]), *data) if name is not None
     ]
 
 
-def line_form(case: str) -> dict[str, Any]:
-    """Feeds and units of a case as forms."""
-    from granum.cases.reading import parsed
-
-    raw = parsed(case, "case")
-    units, feeds = (found if isinstance(found := raw.get(name), dict) else {} for name in ("units", "feeds"))
+def line_form(case: str, across: int = ACROSS) -> dict[str, Any]:
+    """A case as forms: feeds, units and what connects them, substances, specifications, what is missing, and
+    the diagram of the line as far as it stands.
+    """
+    found = outline(case)
+    raw = found.raw
+    units, feeds, specs = (table_of(raw, name) for name in ("units", "feeds", "specifications"))
+    mixture = table_of(raw, "mixture")
     return {
-        "units": {name: _unit(table) for name, table in units.items() if isinstance(table, dict)},
-        "feeds": {name: _feed(table) for name, table in feeds.items() if isinstance(table, dict)},
+        "title": _(found.title) if found.title else "",
+        "units": {
+            name: _unit(table) | _ports(found, name)
+            for name, table in units.items()
+            if isinstance(table, dict)
+        },
+        "feeds": {
+            name: _feed(table, mixture) | {"to": _target(found, name)}
+            for name, table in feeds.items()
+            if isinstance(table, dict)
+        },
+        "substances": {phase: listed(mixture, phase) for phase in ("liquids", "solids", "gases")},
+        "specifications": {
+            name: {word: str(table.get(word, "")) for word in ("vary", "so_that", "equals", "lower", "upper")}
+            for name, table in specs.items()
+            if isinstance(table, dict)
+        },
+        "ends": _ends(found),
+        "missing": list(found.missing),
+        "diagram": draw(found, None, across, [Loose(*port) for port in found.open_inlets], growing=True),
     }
+
+
+def _ends(found: Outline) -> dict[str, list[dict[str, Any]]]:
+    """Where a stream may come from and go to, each with what is there already."""
+    origins = [
+        {
+            "value": k.origin or k.name,
+            "label": pretty(k.origin or k.name),
+            "taken": k.target,
+            "stream": k.name,
+        }
+        for k in found.links
+    ]
+    targets = []
+    for unit, model in found.units.items():
+        for port in () if model is None else (model.inlet_names() or ("",)):
+            end = f"{unit}.{port}" if port else unit
+            taken = next((k.origin or k.name for k in found.links if port and k.target == end), "")
+            targets.append({"value": end, "label": pretty(end), "taken": taken})
+    return {"origins": origins, "targets": targets}
+
+
+def _target(found: Outline, feed: str) -> str:
+    return next((k.target for k in found.links if k.name == feed and not k.origin), "")
+
+
+def _ports(found: Outline, name: str) -> dict[str, Any]:
+    """Inlets and outlets of a unit, with what enters and where it goes."""
+    model = found.units.get(name)
+    entering = {k.target.partition(".")[2]: k for k in found.links if k.target and k.target_unit == name}
+    names = None if model is None else model.inlet_names()
+    optional = () if model is None else model.optional_inlets()
+    inlets = [
+        {
+            "port": port,
+            "label": pretty(port) if names is None else port_label(port),
+            "from": (k.origin or k.name) if (k := entering.get(port)) else "",
+            "needed": port not in optional,
+        }
+        for port in (names if names is not None else entering)
+    ]
+    outlets = [
+        {
+            "port": k.origin.partition(".")[2],
+            "label": port_label(k.origin.partition(".")[2]),
+            "to": k.target,
+            "stream": k.name,
+        }
+        for k in found.links
+        if k.origin and k.source_unit == name
+    ]
+    any_number = model is not None and names is None
+    return {"name": pretty(name), "inlets": inlets, "outlets": outlets, "joins": any_number}
 
 
 def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
@@ -82,6 +164,7 @@ def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
             "parameters": [],
             "limits": [],
             "values": {},
+            "figures": [],
         }
     form = card_form(card.key)
     return {
@@ -90,30 +173,95 @@ def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
         "summary": form["summary"],
         "parameters": form["parameters"],
         "limits": form["limits_shown"],
-        "values": {p.name: _text(table[p.name]) for p in card.parameters if p.name in table},
+        "values": {p.name: case_value(table[p.name]) for p in card.parameters if p.name in table},
+        "figures": [_figure(p) for p in card.outputs if p.kind is not None and not p.series],
     }
 
 
-def _feed(table: Mapping[str, Any]) -> dict[str, Any]:
-    rows = []
+def _figure(p: Parameter) -> dict[str, Any]:
+    """A result as a form asks for its value."""
+    row = p.as_json()
+    return {
+        **row,
+        "required": True,
+        "options": [],
+        "allowed": "",
+        "source_range": "",
+        "symbol_shown": "",
+        "example": None,
+        "default_shown": None,
+    }
+
+
+def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any]:
+    """The form of a feed: flows of the phases that the line has, temperature and pressure, shares of all but
+    the first species of each phase, and the sizes of the solid.
+    """
+    totals = "mass_flow" in table
+    offered = {"temperature", "pressure", *(name for name in FEED_KINDS if name in table)}
+    if totals:
+        offered |= {"mass_flow", "solids_mass_fraction"}
+    else:
+        offered |= {f"{phase}_flow" for phase in ("solid", "liquid") if listed(mixture, f"{phase}s")}
+    if listed(mixture, "gases"):
+        offered |= {"gas_flow", "relative_humidity"}
+    rows, values = [], {name: case_value(table[name]) for name in FEED_KINDS if name in table}
     for name, kind in FEED_KINDS.items():
-        if name in table or name in ("temperature", "pressure"):
-            p = Parameter(name, KINDS[kind])
+        if name in offered:
             default = {"temperature": 298.15, "pressure": 101325.0}.get(name)
-            row = p.as_json() | {
-                "required": default is None,
-                "allowed": "",
-                "source_range": "",
-                "options": [],
-                "symbol_shown": "",
-                "example": None,
-            }
-            row["default_shown"] = None if default is None else entry(p, default)
-            rows.append(row)
-    return {"parameters": rows, "values": {name: _text(table[name]) for name in FEED_KINDS if name in table}}
+            rows.append(_row(Parameter(name, KINDS[kind], default=default)))
+    rests = []
+    for phase, species in (("liquid", "liquids"), ("solid", "solids"), ("gas", "gases")):
+        names, shares = listed(mixture, species), table.get(phase)
+        flows = phase in table or f"{phase}_flow" in table or (totals and phase != "gas")
+        if len(names) < 2 or not flows or ("relative_humidity" in table and phase == "gas"):
+            continue
+        for one in names[1:]:
+            row = _row(Parameter(f"{phase}.{one}", KINDS["MassFraction"], default=None))
+            rows.append(
+                row
+                | {
+                    "label": _("{species} in the {phase}").format(
+                        species=session().label(one), phase=_(phase)
+                    )
+                }
+            )
+            if isinstance(shares, dict) and one in shares:
+                values[f"{phase}.{one}"] = case_value(shares[one])
+        rest = shares.get(names[0], "") if isinstance(shares, dict) else ""
+        rests.append(
+            _("the rest of the {phase} is {species}").format(
+                species=session().label(names[0]), phase=_(phase)
+            )
+            + (f" ({rest})" if rest else "")
+        )
+    if listed(mixture, "solids") and ("solid_flow" in table or totals or "sizes" in table):
+        sizes = Parameter("sizes", law="size_distribution")
+        row = _row(sizes) | {
+            "label": _("particle sizes"),
+            "options": options(sizes),
+            "laws": laws_with_parameters(sizes),
+        }
+        rows.append(row)
+        if "sizes" in table:
+            values["sizes"] = case_value(table["sizes"])
+    return {"parameters": rows, "values": values, "form": "totals" if totals else "phases", "rests": rests}
 
 
-def _text(value: Any) -> str:
+def _row(p: Parameter) -> dict[str, Any]:
+    """A parameter of a feed as a form holds it."""
+    return p.as_json() | {
+        "required": p.required or p.default is None,
+        "allowed": "",
+        "source_range": "",
+        "options": [],
+        "symbol_shown": "",
+        "example": None,
+        "default_shown": None if p.required or p.default is None else entry(p, p.default),
+    }
+
+
+def case_value(value: Any) -> str:
     """A value of a case file as a form holds it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
@@ -121,7 +269,7 @@ def _text(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False, default=str)
     if isinstance(value, list):
         return (
-            "; ".join(map(_text, value))
+            "; ".join(map(case_value, value))
             if any(isinstance(x, str) for x in value)
             else " ".join(map(str, value))
         )
@@ -135,6 +283,9 @@ def edited(case: str, table: str, name: str, key: str, text: str) -> str:
     import tomlkit
     from tomlkit.exceptions import TOMLKitError
 
+    phase, dot, species = key.partition(".")
+    if table == "feeds" and dot:
+        return share_of_feed(case, name, phase, species, text if text.strip() else "0 %")
     if table not in ("units", "feeds"):
         raise InputError(_("'{name}' cannot be edited here.").format(name=table))
     try:

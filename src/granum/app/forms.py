@@ -8,7 +8,8 @@ import ast
 import doctest
 import json
 import math
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -20,6 +21,7 @@ from granum.core.cards import Card
 from granum.core.conversion import convert
 from granum.core.errors import InputError, UnitError
 from granum.core.i18n import _
+from granum.core.index import entries
 from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter
 from granum.core.units import (
@@ -32,27 +34,43 @@ from granum.core.units import (
     show,
     to_si,
 )
-from granum.core.written import read_number
+from granum.core.written import interval, read_number
+from granum.estimation.tables import heading_names
 from granum.materials.stated import asked_of_a_fluid
-from granum.reports.mathml import mathml
+from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import law_label, limit_rows
+from granum.studies.intervals import spread_of
+
+
+def whole(card: Card) -> Card:
+    """A card as a form asks for it: of a law also what it is called with."""
+    return replace(card, parameters=tuple(card.inputs.values()), arguments=()) if card.arguments else card
 
 
 def card_form(key: str) -> dict[str, Any]:
     """One card with everything a form needs."""
-    card = registry.find(key).card
-    data = card.as_json() | {"equation_shown": mathml(card.equation, display=True) if card.equation else ""}
+    card = whole(registry.find(key).card)
+    asked = registry.find(key).card.arguments
+    data: dict[str, Any] = card.as_json() | {"equation_shown": equation_lines(card.equation)}
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     data["fluid"] = fluid_field(card)
-    examples = docstring_values(card)
+    examples = opening_values(card)
     for row, p in zip(data["parameters"], card.parameters, strict=True):
         row |= _field(p)
         row["options"] = options(p)
         row["laws"] = laws_with_parameters(p)
+        row["headings"] = heading_names(p) if p.series else ()
         row["several"] = bool(p.kind) and card.sort == "formula"
-        row["example"] = example(p, examples)
+        row["interval"] = bool(p.kind) and not p.series and card.sort in ("formula", "procedure")
+        row["example"] = example(p, {} if p in asked and p.name not in examples else examples)
         row["units"] += _unit_of(row["example"], p.kind, row["units"])
     return data
+
+
+def fields_of(p: Parameter) -> dict[str, Any]:
+    """A field for a parameter that no card declares."""
+    row = p.as_json() | _field(p) | {"options": options(p), "laws": laws_with_parameters(p)}
+    return row | {"several": False, "example": None}
 
 
 def fluid_field(card: Card) -> dict[str, Any] | None:
@@ -73,7 +91,7 @@ def fluid_field(card: Card) -> dict[str, Any] | None:
 def _field(p: Parameter) -> dict[str, Any]:
     """What stands around a field: symbol, bounds, range, units, default."""
     return {
-        "symbol_shown": mathml(p.term.symbol) if p.term and p.term.symbol else "",
+        "symbol_shown": mathml(p.symbol),
         "allowed": "" if _goes_without_saying(p) else bounds_text(p),
         "source_range": range_text(p, p.fitted) if p.fitted else "",
         "units": _units_of(p.kind, p.as_json()["units"]) if p.kind else [],
@@ -118,17 +136,17 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
         value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
     unit = p.display_unit(array)
-    shown = (_typed(float(x)) for x in np.atleast_1d(from_si(array, unit, p.kind)))
+    shown = (typed(float(x)) for x in np.atleast_1d(from_si(array, unit, p.kind)))
     return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
 
 
-def _typed(number: float) -> str:
+def typed(number: float, figures: int = 6) -> str:
     """A number as somebody would type it.
 
-    >>> _typed(1.07e8), _typed(85.0), _typed(2e-12)
+    >>> typed(1.07e8), typed(85.0), typed(2e-12)
     ('1.07e8', '85', '2e-12')
     """
-    digits, _e, power = f"{number:.6g}".partition("e")
+    digits, _e, power = f"{number:.{figures}g}".partition("e")
     return f"{digits}e{int(power)}" if power else digits
 
 
@@ -140,19 +158,40 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     """
     p = _asked_parameter(asked)
     assert p.kind is not None
-    typed = str(asked.get("unit_typed", ""))
-    array = _converted(f"{asked.get('number', '')} {typed}".strip(), p, bool(asked.get("several")))
-    unit = typed or p.kind.unit
+    written = str(asked.get("unit_typed", ""))
+    within = interval(f"{asked.get('number', '')} {written}".strip()) if asked.get("interval") else None
+    if within is not None:
+        return _read_interval(within, p)
+    array = _converted(f"{asked.get('number', '')} {written}".strip(), p, bool(asked.get("several")))
+    unit = written or p.kind.unit
     if not _known(unit, p.kind):  # "2 mm, 850 um": each value keeps its own
         shown = display_unit(array, p.kind)
         return {"shown": _listed(array, shown, p.kind)}
     offered = (str(u) for u in asked.get("units") or ())
     unit = next((u for u in offered if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
     between = " " if p.series else "; "  # beside one number a blank sets thousands apart
-    numbers = between.join(f"{float(x):.12g}" for x in from_si(array, unit, p.kind))
+    numbers = between.join(typed(float(x), 12) for x in from_si(array, unit, p.kind))
     return {
         "shown": _listed(array, unit, p.kind),
         "number": numbers,
+        "unit": "" if unit == "dimensionless" else unit,
+    }
+
+
+def _read_interval(within: tuple[str, str, str], p: Parameter) -> dict[str, Any]:
+    """What ``85 ± 5 um`` or ``80..90 um`` means, in the unit in which it was typed."""
+    assert p.kind is not None
+    spread = spread_of(p, *within)
+    unit = (read_number(within[0]) or (0.0, ""))[1] or p.kind.unit
+    if not _known(unit, p.kind):
+        unit = p.kind.unit
+    low, middle, high = (float(from_si(x, unit, p.kind)) for x in (spread.low, spread.middle, spread.high))
+    ends, mark = ((middle, middle - low), "±") if spread.about else ((low, high), "…")
+    shown = f" {mark} ".join(format_number(x, 9) for x in ends)
+    number = f" {mark} ".join(typed(x, 9) for x in ends)
+    return {
+        "shown": f"{shown} {pretty_unit(unit)}".strip(),
+        "number": number,
         "unit": "" if unit == "dimensionless" else unit,
     }
 
@@ -244,29 +283,102 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
     middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
     unit = p.display_unit(middle)
     number = float(from_si(middle, unit, p.kind))
-    return {"number": _typed(float(f"{number:.2g}")), "unit": "" if unit == "dimensionless" else unit}
+    return {"number": typed(float(f"{number:.2g}")), "unit": "" if unit == "dimensionless" else unit}
 
 
 def docstring_values(card: Card) -> dict[str, Any]:
-    """Arguments of the call in the docstring's example, as far as they are literals; empty when one is
+    """Arguments of the first call in the docstring's examples, as far as they can be read; empty when one can
     not.
     """
+    known: dict[str, Any] = {}
     for item in doctest.DocTestParser().get_examples(card.doc):
-        for node in ast.walk(ast.parse(item.source)):
+        tree = ast.parse(item.source)
+        for node in ast.walk(tree):
             if (
                 isinstance(node, ast.Call)
                 and isinstance(node.func, ast.Name)
                 and node.func.id == card.name
                 and len(node.args) <= len(card.parameters)
+                and (node.args or node.keywords)
             ):
-                words = [(p.name, arg) for p, arg in zip(card.parameters, node.args, strict=False)]
-                words += [(word.arg, word.value) for word in node.keywords if word.arg]
                 try:
-                    if words:
-                        return {name: ast.literal_eval(value) for name, value in words}
+                    found = {
+                        p.name: _read(arg, known) for p, arg in zip(card.parameters, node.args, strict=False)
+                    }
+                    for word in node.keywords:
+                        value = _read(word.value, known)
+                        found |= {word.arg: value} if word.arg else value
+                    return found
                 except ValueError:
                     break
+        for node in tree.body:
+            if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+                try:
+                    known[node.targets[0].id] = _read(node.value, known)
+                except ValueError:
+                    continue
     return {}
+
+
+EXTRAORDINARY = 900.0  # times more or less than the ordinary range: numbers chosen for the arithmetic
+
+
+def opening_values(card: Card) -> dict[str, Any]:
+    """What a form opens with: the docstring's example, unless a number in it is none that anybody meets; on
+    Earth.
+    """
+    values = {name: value for name, value in docstring_values(card).items() if name != "gravity"}
+    return {} if any(_extraordinary(p, values.get(p.name)) for p in card.parameters) else values
+
+
+def _extraordinary(p: Parameter, value: Any) -> bool:
+    if value is None or p.kind is None or p.kind.unit in ("K", "dimensionless"):
+        return False
+    sizes = np.abs(np.atleast_1d(np.asarray(convert(value, p), dtype=float)))
+    middle = float(np.median(sizes[sizes > 0.0])) if np.any(sizes > 0.0) else 0.0
+    low, high = sorted(map(abs, p.ordinary()))
+    if p.kind.unit == "kg/m^3":
+        low = min(low, 1.0)  # a gas where the glossary thinks of liquids
+    return middle > EXTRAORDINARY * high or 0.0 < middle < low / EXTRAORDINARY
+
+
+_ARITHMETIC: dict[type, Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
+
+
+def _read(node: ast.expr, known: Mapping[str, Any]) -> Any:
+    """The value of an expression of an example: literals, names given before, arithmetic, ``dict(…)``, laws.
+
+    >>> _read(ast.parse("[0.1 / 4, dict(a=size)]", mode="eval").body, {"size": "2 um"})
+    [0.025, {'a': '2 um'}]
+    """
+    if isinstance(node, ast.Name) and node.id in known:
+        return known[node.id]
+    if isinstance(node, (ast.List, ast.Tuple)):
+        return [_read(item, known) for item in node.elts]
+    if isinstance(node, ast.Dict) and None not in node.keys:
+        return {
+            ast.literal_eval(key): _read(value, known)
+            for key, value in zip(node.keys, node.values, strict=True)
+            if key is not None
+        }
+    if isinstance(node, ast.BinOp) and type(node.op) in _ARITHMETIC:
+        return _ARITHMETIC[type(node.op)](_read(node.left, known), _read(node.right, known))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        words = {word.arg: _read(word.value, known) for word in node.keywords if word.arg}
+        if node.func.id == "dict":
+            return words
+        law = next((e for e in entries().values() if e.sort == "law" and e.attribute == node.func.id), None)
+        if law is not None:
+            names = [p.name for p in registry.find(law.key).card.parameters]
+            given = dict(zip(names, (_read(arg, known) for arg in node.args), strict=False))
+            return {"law": law.name} | given | words
+    return ast.literal_eval(node)
 
 
 def options(p: Parameter) -> list[dict[str, str]]:

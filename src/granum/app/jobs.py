@@ -37,9 +37,8 @@ REST = 120.0  # seconds without a job after which a process that holds much memo
 GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
 # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
 LONG = 3.0
-# seconds without a question after which a study is taken to be forgotten; a hidden page asks once a minute
-PATIENCE = 900.0
 STUDY = 3600.0  # seconds after which a study is given up
+PATIENCE = STUDY  # seconds without a question after which it is taken to be forgotten: a tab may be closed
 
 
 class Refused(GranumError):
@@ -304,7 +303,7 @@ class Crew:
             raise Busy(_("The calculation was cancelled."))
         process = self._take(key)
         try:
-            return self._watch(job, process)
+            return self._watch(job, process, key)
         finally:
             process.jobs += 1
             if process.alive and not (process.jobs % LOOK == 0 and worn(process.id)):
@@ -314,10 +313,10 @@ class Crew:
                 process.stop()
                 self.warm()
 
-    def _watch(self, job: Job, process: _Process) -> bytes:
+    def _watch(self, job: Job, process: _Process, key: str) -> bytes:
         job.started = started = time.monotonic()
         left = None
-        process.send((job.task, job.payload, job.language, job.units))
+        process.send((job.task, job.payload, job.language, job.units, key not in process.known))
         while True:
             message = process.receive(0.2)
             now = time.monotonic()

@@ -7,6 +7,7 @@ import contextvars
 import json
 import re
 import secrets
+import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -92,13 +93,13 @@ class Familiar:
     one that is not.
     """
 
-    # seconds; forms remembered; new forms after which the memory is looked at
-    quick, most, look = 0.03, 20_000, 50
+    # seconds; forms remembered; new and known forms after which the memory is looked at
+    quick, most, look, glance = 0.03, 20_000, 25, 400
     _number = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*(?:[A-Za-zµμ°℃%Ω][^\s;,\[\]]{0,30})?\s*")
 
     def __init__(self) -> None:
         self._met: set[tuple[Any, ...]] = set()
-        self._new = 0
+        self._new = self._asked = 0
 
     def _form(self, key: str, inputs: dict[str, Any]) -> tuple[Any, ...] | None:
         """Card, names of the inputs and words chosen; None when an input is more than a number or a word."""
@@ -114,8 +115,15 @@ class Familiar:
 
     def knows(self, key: str, inputs: dict[str, Any]) -> bool:
         """Whether this form of calculation was quick before."""
+        self._asked += 1
+        if self._asked % self.glance == 0:  # what is asked often is compiled in the end
+            threading.Thread(target=self._tidy, daemon=True).start()
         form = self._form(key, inputs)
         return form is not None and form in self._met
+
+    def _tidy(self) -> None:
+        if forget_when_worn():
+            self._met.clear()
 
     def meet(self, key: str, inputs: dict[str, Any], work: Callable[[], Any]) -> Any:
         """Run work and remember its form when it was quick; an error is not remembered."""
@@ -123,8 +131,8 @@ class Familiar:
         found = work()
         took = time.perf_counter() - start
         self._new += 1
-        if self._new % self.look == 0 and forget_when_worn():
-            self._met.clear()
+        if self._new % self.look == 0:
+            self._tidy()
         form = self._form(key, inputs)
         if form is not None and took < self.quick and len(self._met) < self.most:
             self._met.add(form)

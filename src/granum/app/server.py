@@ -19,23 +19,36 @@ from starlette.exceptions import HTTPException
 
 import granum
 from granum.app import exercises
+from granum.app.alone_forms import alone_form
+from granum.app.building import built, palette, substances
 from granum.app.case_forms import edited, line_form
+from granum.app.finding import SHOWN, found
 from granum.app.forms import card_form, read_entry
 from granum.app.jobs import Broken, GivenUp, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
-from granum.app.tasks import calculate, packed
+from granum.app.reading import as_html
+from granum.app.sending import Shorter, kept, lasting
+from granum.app.shipped import examples, examples_folder, title_of
+from granum.app.tasks import TASKS, calculate, packed
 from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.glossary import glossary, term
 from granum.core.i18n import _, current_language
-from granum.core.index import entries, plain
+from granum.core.index import entries
+from granum.core.search import search
 from granum.core.units import unit_system
 
 STATIC = Path(str(files("granum") / "app" / "static"))
 Inputs = Annotated[dict[str, Any], Body()]
 Case = Annotated[str, Body(embed=True)]
 Place = Annotated[str, Body(embed=True)]
+
+TABLES = {
+    "csv": "text/csv",
+    "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+}
 
 
 class Answer(JSONResponse):
@@ -58,14 +71,15 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     token: when set, every request must carry it (as ``?token=`` once, then as a cookie).
     """
     app = FastAPI(title="Granum", version=granum.__version__, docs_url=None, redoc_url=None)
+    app.add_middleware(Shorter)
     app.add_middleware(Guard, token=token)
     quick = Workers(count=2, waiting=400, longest=60.0)
     _refusals(app)
     _cards_and_formulas(app, quick)
     _long_work(app, workspace)
     _studies(app, workspace)
-    _case_forms(app, quick)
-    _files(app, workspace)
+    _case_forms(app, quick, workspace)
+    _files(app, quick, workspace)
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
     return app
 
@@ -109,26 +123,32 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
     """What is answered in a moment, in this process."""
 
     @app.get("/api/cards")
-    async def cards(word: str = "", sort: str = "") -> Response:
-        """All cards, short."""
+    async def cards(request: Request, word: str = "", sort: str = "") -> Response:
+        """All cards, short, or those that words mean, the best first."""
         if not word and not sort:
-            return _json(await quick.run(_cards_text))
-        found = [c for c in await quick.run(_cards) if not sort or c["sort"] == sort]
-        return Answer(
-            {
-                "cards": [
-                    c
-                    for c in found
-                    if all(plain(part) in plain(" ".join(c.values())) for part in word.split())
-                ]
-            }
-        )
+            return kept(await quick.run(_cards_text), request)
+        listed = await quick.run(_cards)
+        if word:
+            by_key = {c["card"]: c for c in listed}
+            listed = [by_key[card.key] for card in await quick.run(lambda: search(word[:200]))]
+        return Answer({"cards": [c for c in listed if not sort or c["sort"] == sort]})
+
+    @app.get("/api/search")
+    async def everything(q: str = "", limit: int = SHOWN) -> Response:
+        """Cards, lines, exercises and pages that words mean, the best first."""
+        return Answer({"hits": await quick.run(lambda: found(q, min(max(limit, 1), 200)))})
+
+    @app.get("/api/pages/{name:path}")
+    async def read_page(name: str) -> Response:
+        """A page of the documentation."""
+        return Answer(await quick.run(lambda: as_html(name)))
 
     @app.get("/api/cards/{key}")
-    async def card(key: str) -> Response:
+    async def card(request: Request, key: str) -> Response:
         """One card with everything a form needs."""
         place = (key, current_language(), unit_system())
-        return _json(_forms[place] if place in _forms else await quick.run(lambda: _form_text(*place)))
+        form = _forms[place] if place in _forms else await quick.run(lambda: _form_text(*place))
+        return kept(form, request)
 
     @app.post("/api/read")
     async def read(asked: Inputs) -> Response:
@@ -150,10 +170,61 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
             await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request)
         )
 
+    @app.post("/api/alone/{key}")
+    async def by_itself(request: Request, key: str, inputs: Inputs) -> Response:
+        """A piece of equipment alone: its form, and the case file of what stands in it."""
+        return Answer(await quick.run(lambda: alone_form(key, inputs), request))
+
+    async def nearby(request: Request, task: str, payload: dict[str, Any]) -> bytes:
+        """What is asked about one formula in this process; what repeats a procedure, or many laws, may be
+        long.
+        """
+        key = payload["key"]
+        if not payload.get("laws") and await quick.run(lambda: registry.find(key).card.sort) == "formula":
+            return await quick.run(lambda: TASKS[task](payload, Tell()), request)
+        return await crew().run(task, payload, key, request)
+
+    @app.post("/api/sensitivity/{key}")
+    async def sensitivity(request: Request, key: str, asked: Inputs) -> Response:
+        """A result over one of its inputs: ``{"inputs", "against", "output", "unit", "laws"}``."""
+        return _json(await nearby(request, "sensitivity", asked | {"key": key}))
+
+    @app.post("/api/solve/{key}")
+    async def solve(request: Request, key: str, asked: Inputs) -> Response:
+        """The input for which a result is the wanted one: ``{"inputs", "find", "output", "wanted"}``."""
+        return _json(await nearby(request, "solve", asked | {"key": key}))
+
+    @app.post("/api/sheet/{key}", response_class=HTMLResponse)
+    async def sheet(request: Request, key: str, asked: Inputs) -> HTMLResponse:
+        """The calculation as a sheet to print: asked as the sensitivity, with the ``link`` of the page."""
+        return HTMLResponse(await nearby(request, "calculation", asked | {"key": key}))
+
+    @app.get("/api/version")
+    async def version() -> Response:
+        """The version of the program."""
+        return Answer({"version": granum.__version__})
+
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
         """Worked examples and quizzes of the course notes."""
         return Answer(await quick.run(exercises.listing))
+
+    @app.get("/api/exercises/{name}")
+    async def exercise(request: Request, name: str, seed: int | None = None) -> Response:
+        """One exercise with its numbers: those of the course, or fresh ones."""
+        return _json(await crew().run("exercise", {"name": name, "seed": seed}, name, request))
+
+    @app.post("/api/exercises/{name}")
+    async def mark(
+        request: Request,
+        name: str,
+        step: Annotated[int, Body()],
+        answer: Annotated[str, Body()],
+        seed: Annotated[int | None, Body()] = None,
+    ) -> Response:
+        """The verdict on an answer."""
+        payload = {"name": name, "step": step, "seed": seed, "answer": answer}
+        return _json(await crew().run("mark", payload, name, request))
 
 
 def _long_work(app: FastAPI, workspace: Path | None) -> None:
@@ -261,13 +332,45 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
         return Answer({"state": "cancelled"})
 
 
-def _case_forms(app: FastAPI, quick: Workers) -> None:
+def _case_forms(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
     """Case files as forms."""
 
     @app.post("/api/case/form")
-    async def form(request: Request, case: Case) -> Response:
-        """Feeds and units of a case file as forms."""
-        return Answer(await quick.run(lambda: line_form(case), request))
+    async def form(
+        request: Request, case: Case, across: Annotated[int, Body(embed=True, ge=1, le=40)] = 5
+    ) -> Response:
+        """A case file as forms, with what it still needs and its diagram, ``across`` units side by side."""
+        return Answer(await quick.run(lambda: line_form(case, across), request))
+
+    @app.post("/api/case/build")
+    async def build(
+        request: Request,
+        operation: Case,
+        arguments: Annotated[dict[str, Any], Body(embed=True)],
+        case: Case = "",
+    ) -> Response:
+        """The case file after an operation of ``granum.cases.building``."""
+        return Answer({"case": await quick.run(lambda: built(operation, case, arguments), request)})
+
+    @app.get("/api/palette")
+    async def equipment() -> Response:
+        """Every piece of equipment, with its symbol."""
+        return Answer({"equipment": await quick.run(palette)})
+
+    @app.get("/api/substances")
+    async def materials() -> Response:
+        """What a line can be made of."""
+        return Answer(await quick.run(substances))
+
+    @app.post("/api/case/tables")
+    async def tables(request: Request, case: Case, form: Case, place: Place = "") -> Response:
+        """Streams and results of a case as a file, ``csv`` or ``xlsx``."""
+        if form not in TABLES:
+            raise unknown_name(_("Form"), form, TABLES)
+        payload = {"case": case, "form": form} | _folder(workspace, place)
+        return Response(
+            await crew().run("tables", payload, _structure(case), request), media_type=TABLES[form]
+        )
 
     @app.post("/api/case/edit")
     async def edit(request: Request, case: Case, table: Case, name: Case, key: Case, text: Case) -> Response:
@@ -280,8 +383,8 @@ def _folder(workspace: Path | None, place: Any) -> dict[str, str]:
     from.
     """
     sort, _colon, name = str(place or "").partition(":")
-    if sort == "examples" and name in _examples():
-        return {"folder": str(_examples()[name].parent), "root": str(_examples()[name].parent)}
+    if sort == "examples" and name in examples():
+        return {"folder": str(examples()[name].parent), "root": str(examples()[name].parent)}
     if workspace is None:
         return {"folder": "", "root": ""}
     folder = _inside(workspace, name).parent if sort == "workspace" and name else workspace.resolve()
@@ -294,7 +397,7 @@ def _structure(case: str) -> str:
     return found.partition("=")[2].strip().strip("\"'")[:200]
 
 
-def _files(app: FastAPI, workspace: Path | None) -> None:
+def _files(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
     """Case files: the workspace and the shipped examples; Plotly."""
 
     @app.get("/api/workspace")
@@ -335,23 +438,21 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         return Answer({"path": path})
 
     @app.get("/api/examples")
-    async def examples() -> Response:
+    async def shipped() -> Response:
         """Case files shipped with the package."""
         return Answer(
             {
-                "files": sorted(_examples()),
-                "titles": {
-                    name: _(_structure(p.read_text(encoding="utf-8"))) for name, p in _examples().items()
-                },
+                "files": sorted(examples()),
+                "titles": {name: title_of(name) for name in examples()},
             }
         )
 
     @app.get("/api/examples/{name:path}")
     async def example(name: str) -> Response:
         """The text of a shipped case file."""
-        if name not in _examples():
-            raise unknown_name(_("Example"), name, _examples())
-        return Answer({"path": name, "text": _examples()[name].read_text(encoding="utf-8")})
+        if name not in examples():
+            raise unknown_name(_("Example"), name, examples())
+        return Answer({"path": name, "text": examples()[name].read_text(encoding="utf-8")})
 
     @app.get("/favicon.ico")
     async def icon() -> FileResponse:
@@ -359,25 +460,10 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         return FileResponse(STATIC / "icon.svg", media_type="image/svg+xml")
 
     @app.get("/vendor/plotly.js")
-    async def plotly() -> FileResponse:
+    async def plotly(request: Request) -> Response:
         """Plotly, as the installed Python package ships it."""
         place = files("plotly") / "package_data" / "plotly.min.js"
-        return FileResponse(
-            str(place), media_type="text/javascript", headers={"cache-control": "max-age=86400"}
-        )
-
-
-def _examples_folder() -> Path:
-    root = Path(str(files("granum") / "examples"))
-    # installed, or in a source tree
-    return root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"
-
-
-@cache
-def _examples() -> dict[str, Path]:
-    root = _examples_folder()
-    found = sorted(root.rglob("*.toml")) if root.is_dir() else []
-    return {str(p.relative_to(root)): p for p in found if "[units." in p.read_text(encoding="utf-8")}
+        return await quick.run(lambda: lasting(place.read_bytes(), "text/javascript", request))
 
 
 def _inside(workspace: Path | None, path: str) -> Path:
@@ -394,6 +480,11 @@ def _inside(workspace: Path | None, path: str) -> Path:
     return place
 
 
+def _family_title(family: str) -> str:
+    label = term(family).label if family in glossary() else family.replace("_", " ")
+    return label[:1].upper() + label[1:]
+
+
 @cache
 def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
     found = [
@@ -403,7 +494,8 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
             "domain": c.domain,
             "title": c.title,
             "summary": c.summary,
-            "other_names": c.other_names,
+            "family": c.family,
+            "family_title": _family_title(c.family),
         }
         for c in entries().values()
     ]
@@ -432,7 +524,7 @@ def _trial(key: str) -> dict[str, Any] | None:
     """Data and conditions to try a lab test with: those of the first ``granum fit`` of it in a README of the
     examples.
     """
-    for place in sorted(_examples_folder().glob("*/README.md")):
+    for place in sorted(examples_folder().glob("*/README.md")):
         for line in place.read_text(encoding="utf-8").splitlines():
             if line.startswith(f"granum fit {key} "):
                 data, *conditions = shlex.split(line)[3:]

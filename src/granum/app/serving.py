@@ -15,7 +15,7 @@ import uvicorn
 from granum.app.connections import Connection
 from granum.app.jobs import crew
 from granum.app.server import create_app
-from granum.core.errors import InputError
+from granum.core.errors import InputError, reason_of
 from granum.core.i18n import _
 
 
@@ -45,7 +45,7 @@ def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
     except OSError as problem:
         raise InputError(
             _("Address {host}, port {port} cannot be used: {reason}. Choose another with --port.").format(
-                host=host, port=port, reason=problem.strerror
+                host=host, port=port, reason=reason_of(problem)
             )
         ) from None
     token = "" if _loopback(host) else secrets.token_urlsafe(24)

@@ -15,6 +15,7 @@ import numpy as np
 from granum.app.case_forms import read_line
 from granum.app.telling import Cancelled, Tell, progress_text
 from granum.app.texts import plain_data
+from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -111,6 +112,8 @@ def _input_row(found: Any, path: str) -> dict[str, Any] | None:
 def _figures(found: Any) -> Iterator[Any]:
     yield from (found.output(path) for path in found.outputs())
     sheet = getattr(found, "sheet", None)
+    if sheet is not None:
+        yield from (found.output(path) for path in found.taken())
     for link in sheet.links if sheet is not None else ():
         for word in WATCHED:
             try:
@@ -199,11 +202,12 @@ def _outcome(declared: Any, payload: Mapping[str, Any], tell: Tell) -> dict[str,
     if not outcome.complete and not outcome.counts()["run"]:
         raise Cancelled
     return plain_data(outcome.as_json(cases=SHOWN_CASES)) | {
+        "model": _(outcome.cases.subject.title),
         "charts": [
             {"name": name, "figure": json.loads(figure.to_json())}
             for name, figure in outcome.charts().items()
         ],
-        "tables": _tables(outcome),
+        "tables": _tables(outcome, payload.get("inputs") or {}),
         "warnings": warnings_of(outcome),
     }
 
@@ -219,8 +223,20 @@ def _spread(value: Any, v: Any) -> str:
     return f"{format_number(value)} K" if v.unit == "K" else _text(value, v)
 
 
-def _tables(outcome: Any) -> list[dict[str, Any]]:
-    """The findings as tables of text."""
+def _present(outcome: Any, path: str, given: Mapping[str, Any]) -> Any:
+    """What an input was before it was varied."""
+    v = outcome.cases.subject.input(path)
+    return convert(given[path], v.parameter) if given.get(path) else outcome.cases.subject.nominal(path)
+
+
+def _limit_text(v: Any, limit: Mapping[str, Any]) -> str:
+    """A figure with the bounds that it should keep."""
+    bounds = (("≥", limit["lower"]), ("≤", limit["upper"]))
+    return f"{v.label} " + ", ".join(f"{sign} {_text(x, v)}" for sign, x in bounds if x is not None)
+
+
+def _tables(outcome: Any, given: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The findings as tables of text; ``given`` are the inputs of a card before they were varied."""
     found = outcome.findings()
     figures = {v.path: v for v in outcome.outputs}
     inputs = {v.path: v for v in outcome.inputs}
@@ -231,31 +247,29 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
                 figures[p].label,
                 _text(s["mean"], figures[p]),
                 _spread(s["standard_deviation"], figures[p]),
-                *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95")),
+                *(_text(s[k], figures[p]) for k in ("p10", "p50", "p90")),
                 str(s["failed"]),
             ]
             for p, s in found["statistics"].items()
         ]
-        heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %", _("failed cases")]
+        heads = [_("result"), _("mean"), _("standard deviation"), "P10", "P50", "P90", _("failed cases")]
         tables.append({"title": _("Spread of the results"), "columns": heads, "rows": rows})
         chances = [
-            [figures[p].label if p else _("all limits"), f"{format_number(100 * c['probability'], 3)} %"]
+            [
+                _limit_text(figures[p], c) if p else _("all limits"),
+                *(f"{format_number(100 * x, 3)} %" for x in (c["probability"], *c["interval_95"])),
+            ]
             for p, c in found["limits"].items()
-            if "probability" in c
+            if c["probability"] is not None
         ]
         if chances:
-            tables.append(
-                {
-                    "title": _("Chance of keeping the limits"),
-                    "columns": [_("limit"), _("chance")],
-                    "rows": chances,
-                }
-            )
+            heads = [_("limit"), _("chance"), _("at least (95 %)"), _("at most (95 %)")]
+            tables.append({"title": _("Chance of keeping the limits"), "columns": heads, "rows": chances})
     if outcome.kind == "sobol":
         rows = [
             [
                 figures[p].label,
-                group,
+                " + ".join(inputs[name].label if name in inputs else name for name in group.split(" + ")),
                 *("—" if s[k] is None else format_number(s[k], 3) for k in ("first", "total")),
             ]
             for p, groups in found["indices"].items()
@@ -269,7 +283,10 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
             }
         )
     if outcome.kind == "optimize":
-        rows = [[inputs[p].label, "—", _text(row["value"], inputs[p])] for p, row in found["inputs"].items()]
+        rows = [
+            [inputs[p].label, _text(_present(outcome, p, given), inputs[p]), _text(row["value"], inputs[p])]
+            for p, row in found["inputs"].items()
+        ]
         rows += [
             [figures[p].label, _text(row["before"], figures[p]), _text(row["value"], figures[p])]
             for p, row in found["outputs"].items()
@@ -289,9 +306,20 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
                     "rows": held,
                 }
             )
-    if outcome.kind == "sweep":
+    if outcome.kind == "scenarios":
+        named = [*found["scenarios"].items()]
+        rows = [
+            [v.label, *(_text(case[part].get(p), v) for _name, case in named)]
+            for part, known in (("inputs", inputs), ("outputs", figures))
+            for p, v in known.items()
+        ]
+        heads = [_("quantity"), *(name for name, _case in named)]
+        tables.append({"title": _("Cases"), "columns": heads, "rows": rows})
+    if outcome.kind in ("sweep", "pareto"):
         columns = {**inputs, **figures}
-        count = len(next(iter(found["table"].values())))
-        rows = [[_text(found["table"][p][i], v) for p, v in columns.items()] for i in range(min(count, 60))]
+        rows = [
+            [_text(outcome.column(p)[i], v) for p, v in columns.items()]
+            for i in range(min(len(outcome.cases.codes), 60))
+        ]
         tables.append({"title": _("Cases"), "columns": [v.label for v in columns.values()], "rows": rows})
     return tables

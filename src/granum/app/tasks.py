@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from granum.app import studies
+from granum.app import exercises, studies
+from granum.app.beside import described_curve, sheet, solved_input
 from granum.app.case_forms import read_line
+from granum.app.exercises.marking import marked
 from granum.app.spread import spread
 from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
@@ -21,18 +23,22 @@ from granum.core.cards import Card
 from granum.core.conversion import Binder
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
-from granum.core.units import format_number
+from granum.core.units import format_number, pretty_unit
 from granum.flowsheet.watching import Watch
 from granum.reports.quantities import (
     check_row,
     defaults_text,
     estimate_rows,
+    found_rows,
+    is_finding,
     origins_text,
     ranges_text,
-    statistics_text,
+    statistics_rows,
     value_text,
 )
-from granum.reports.streams import audit_text, stream_figures, stream_table
+from granum.reports.streams import audit_text, stream_figures, stream_look, stream_sheet
+from granum.reports.utilities import utility_table
+from granum.studies.intervals import intervals, split
 
 LONGEST = 900.0  # s that a line may take
 
@@ -80,7 +86,7 @@ def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
     refused here.
     """
     values = given_values(inputs)
-    for p in card.parameters:
+    for p in card.inputs.values():
         value = values.get(p.name)
         listed = isinstance(value, (list, tuple))
         single = p.kind is not None and not p.series and card.sort != "formula"
@@ -100,19 +106,45 @@ def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
 
 
 def calculate(payload: dict[str, Any], _tell: Tell) -> bytes:
-    """Evaluate a formula or a procedure."""
-    thing = evaluable(payload["key"], ("formula", "procedure"))
-    given = inputs_for(thing.card, payload["inputs"])
-    return packed(described(thing.evaluate(**given), given))
+    """Evaluate a formula, a procedure or a law that needs no more than numbers."""
+    thing = evaluable(payload["key"], ("formula", "procedure", "law"))
+    if not hasattr(thing, "evaluate"):
+        raise InputError(
+            _("'{key}' is used inside equipment and has no value by itself.").format(key=thing.card.key)
+        )
+    given, spreads = inputs_for(thing.card, payload["inputs"]), {}
+    if thing.card.sort != "law":
+        given, spreads = split(thing.card, given)
+    result = thing.evaluate(**given)
+    shown = described(result, given)
+    for row in shown["inputs_shown"]:
+        row["text"] = spreads[row["name"]].text if row["name"] in spreads else row["text"]
+    found = {name: i._asdict() for name, i in intervals(thing, result, spreads).items()}
+    return packed(shown | {"intervals": found})
 
 
 def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The same inputs by other laws."""
     thing = evaluable(payload["key"], ("formula",))
-    given = inputs_for(thing.card, payload["inputs"])
-    return packed(
-        {"rows": spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0])}
-    )
+    given = split(thing.card, inputs_for(thing.card, payload["inputs"]))[0]
+    return packed(spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0]))
+
+
+def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The chart of one result over one input, with the choice of both; and what other laws give where that
+    is wanted.
+    """
+    return packed(described_curve(evaluable(payload["key"], ("formula", "procedure")), payload))
+
+
+def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The input for which a result is the wanted one."""
+    return packed(solved_input(evaluable(payload["key"], ("formula", "procedure")), payload))
+
+
+def calculation(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The sheet of a calculation, HTML."""
+    return sheet(evaluable(payload["key"], ("formula", "procedure")), payload).encode()
 
 
 def chart(payload: dict[str, Any], tell: Tell) -> bytes:
@@ -143,14 +175,20 @@ def fit(payload: dict[str, Any], tell: Tell) -> bytes:
         data
         | {
             "shown": [row._asdict() for row in estimate_rows(data)],
-            "statistics_shown": " · ".join(
-                filter(
-                    None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data))
-                )
-            ),
+            "residual_unit": _residual_unit(test_type),
+            "statistics_rows": statistics_rows(data),
+            "remarks": [*filter(None, (text(data) for text in (origins_text, defaults_text, ranges_text)))],
             "chart": json.loads(test.chart().to_json()),
         }
     )
+
+
+def _residual_unit(test_type: Any) -> str:
+    """SI unit of what a test fits; empty where it fits several things."""
+    from granum.core.kinds import kind_of
+
+    kinds = [kind_of(annotation) for annotation in getattr(test_type, "axes", {}).values()]
+    return pretty_unit(kinds[1].unit) if len(kinds) == 2 and kinds[1] is not None else ""
 
 
 def table(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -206,19 +244,25 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
     for name, report in outcome.units.items():
         data["units"][name]["title"] = report.model.card.title
         for p, value in report.figures():
-            data["units"][name]["results"][p.name] |= {"label": p.label, "text": value_text(value, p)}
+            data["units"][name]["results"][p.name] |= {
+                "label": p.label,
+                "text": value_text(value, p),
+                "finding": is_finding(p),
+            }
         data["units"][name]["checks"] = [
-            row | check_row(c)._asdict()
+            row | check_row(c, report.figures())._asdict()
             for row, c in zip(data["units"][name]["checks"], report.checks, strict=True)
         ]
     for name, stream in outcome.streams.items():
-        data["streams"][name]["shown"] = stream_figures(stream)
+        data["streams"][name] |= {"shown": stream_figures(stream), **stream_look(stream)}
     return packed(
         data
         | {
             "flags": noticed(data["flags"]),
             "diagram": outcome.drawing(),
-            "stream_table": stream_table(outcome),
+            "stream_table": stream_sheet(outcome),
+            "utility_table": utility_table(outcome),
+            "found": found_rows(outcome),
         }
     )
 
@@ -232,6 +276,13 @@ def report(payload: dict[str, Any], tell: Tell) -> bytes:
     return line_report(outcome).encode()
 
 
+def tables(payload: dict[str, Any], tell: Tell) -> bytes:
+    """Streams and results of the text of a case file, as a table file."""
+    from granum.reports.sheets import table_file
+
+    return table_file(_outcome(payload, tell), payload["form"])
+
+
 def study_choices(payload: dict[str, Any], _tell: Tell) -> bytes:
     """What a study of a line or a card may vary and watch."""
     return packed(studies.choices(payload))
@@ -240,6 +291,16 @@ def study_choices(payload: dict[str, Any], _tell: Tell) -> bytes:
 def study(payload: dict[str, Any], tell: Tell) -> bytes:
     """Run a study."""
     return packed(studies.study(payload, tell))
+
+
+def exercise(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """An exercise with its numbers."""
+    return packed(exercises.worked(payload["name"], payload["seed"]))
+
+
+def mark(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The verdict on the answer to a step of an exercise."""
+    return packed(marked(payload["name"], payload["step"], payload["seed"], payload["answer"]))
 
 
 def rest(payload: dict[str, Any], tell: Tell) -> bytes:
@@ -258,5 +319,23 @@ def fill(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
     task.__name__: task
-    for task in (calculate, others, chart, fit, table, run, report, study_choices, study, rest, fill)
+    for task in (
+        calculate,
+        others,
+        sensitivity,
+        solve,
+        calculation,
+        chart,
+        fit,
+        table,
+        run,
+        report,
+        tables,
+        study_choices,
+        study,
+        exercise,
+        mark,
+        rest,
+        fill,
+    )
 }

@@ -15,7 +15,9 @@ from granum.core.parameters import Parameter, default_as_json
 from granum.core.results import Result
 from granum.core.units import format_number, from_si, pretty_unit
 from granum.reports.html import note_step
-from granum.reports.quantities import MOST_SHOWN, law_label, value_text
+from granum.reports.mathml import mathml
+from granum.reports.numbers import numbered
+from granum.reports.quantities import MOST_SHOWN, beside_rows, in_units, law_label, value_text
 
 
 def plain_data(value: Any) -> Any:
@@ -130,6 +132,7 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
             "label": p.label,
             "text": value_text(result.outputs[p.name], p),
             "symbol": row["symbol"],
+            "units": in_units(result.outputs[p.name], p),
         }
         for p, row in zip(result.card.outputs, step["outputs"], strict=True)
     ]
@@ -147,10 +150,12 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
     return result.as_json() | {
         "flags": noticed(result.notices),
         "shown": [row for row in rows if row["name"] not in tabled],
+        "beside_shown": [row._asdict() | {"symbol": mathml(row.symbol)} for row in beside_rows(result)],
         "table": table,
         "series": series,
         "inputs_shown": inputs,
         "equation": step["equation"] if result.card.equation else "",
+        "equation_numbers": mathml(numbered(result), display=True),
         "citation": step["source"],
         "python": python_line(result.card, given),
         "command": command_line(result.card, given),

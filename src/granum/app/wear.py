@@ -14,7 +14,9 @@ from pathlib import Path
 MOST_MAPS = 20_000
 MOST_MEMORY = 2_500_000_000  # bytes
 # bytes beyond which the server drops compiled code, and again when so much has been added since
-MUCH, MORE = 550_000_000, 100_000_000
+MUCH, MORE = 450_000_000, 40_000_000
+# and a process with long work, before work of another sort
+CROWDED, MORE_CROWDED = 600_000_000, 100_000_000
 # bytes beyond which a process that has nothing to do gives way to a new one
 IDLE_MEMORY = 400_000_000
 _forgetting = threading.Lock()
@@ -41,7 +43,15 @@ def worn(process: int | str = "self") -> bool:
         return False
 
 
-def forget_when_worn() -> bool:
+def give_back() -> None:
+    """Hand memory that is free back to the system, where the C library can do that."""
+    with contextlib.suppress(OSError, AttributeError):
+        import ctypes
+
+        ctypes.CDLL("libc.so.6").malloc_trim(0)
+
+
+def forget_when_worn(much: float | None = None, more: float | None = None) -> bool:
     """Drop the compiled code of this process when it has piled up too much of it; says whether that was
     done.
     """
@@ -49,16 +59,14 @@ def forget_when_worn() -> bool:
     if not _forgetting.acquire(blocking=False):
         return False
     try:
-        if not worn() and resident() < max(MUCH, _kept + MORE):
+        much, more = MUCH if much is None else much, MORE if more is None else more
+        if not worn() and resident() < max(much, _kept + more):
             return False
-        import jax
+        from granum.core.compiling import forget
 
-        jax.clear_caches()
+        forget()
         gc.collect()
-        with contextlib.suppress(OSError, AttributeError):
-            import ctypes
-
-            ctypes.CDLL("libc.so.6").malloc_trim(0)  # freed memory goes back to the system
+        give_back()
         _kept = resident()
         return True
     finally:

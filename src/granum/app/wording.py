@@ -10,7 +10,7 @@ from granum.core import registry
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.parameters import Parameter
-from granum.core.units import pretty_unit
+from granum.core.units import format_number, pretty_unit
 
 _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
@@ -19,6 +19,7 @@ _ALONE = re.compile(_QUOTED)
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\]:? ?")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
+_BEGINNING = re.compile(r"^.|(?<=[^\W\d]{2}[.?!] )[^\W\d_](?=[^\W\d_.]+[ ,])")
 _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
 
 
@@ -36,11 +37,11 @@ def page_words(message: str, allowed: object = None) -> str:
     text = _WITH_LABEL.sub(_labelled, text)
     text = _ALONE.sub(lambda found: Parameter(found[1]).label if quantity_in(found[1]) else found[0], text)
     text = _KEY.sub(lambda found: _title(found[0]), text)
-    text = _EXAMPLE.sub(lambda found: f"1.5 {pretty_unit(found[1])}", text)
+    text = _EXAMPLE.sub(lambda found: f"{format_number(1.5)} {pretty_unit(found[1])}", text)
     if isinstance(allowed, list) and allowed:
         units = [pretty_unit(str(unit)) or "1" for unit in allowed]
         text = text.replace(", ".join(map(str, allowed)), ", ".join(units))
-    return text[:1].upper() + text[1:]
+    return _BEGINNING.sub(lambda found: found[0].upper(), text)
 
 
 def told(error: Mapping[str, Any]) -> dict[str, Any]:

@@ -17,6 +17,7 @@ import sys
 import threading
 from typing import Any, BinaryIO
 
+from granum.app.wear import CROWDED, MORE_CROWDED, forget_when_worn
 from granum.core.garbage import collect_seldom
 
 
@@ -70,7 +71,9 @@ def main() -> None:
     registry.everything()
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
     while True:
-        name, payload, code, units = tasks.get()
+        name, payload, code, units, new = tasks.get()
+        if new:
+            forget_when_worn(CROWDED, MORE_CROWDED)
         cancelled.clear()
         set_language(code)
         set_unit_system(units)

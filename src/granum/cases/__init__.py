@@ -2,13 +2,24 @@
 
 from typing import TYPE_CHECKING, Any
 
+from granum.cases.alone import alone, case_text
 from granum.cases.reading import read, read_text
 from granum.flowsheet.run import Line, Run
 
 if TYPE_CHECKING:
     from granum.cases.studying import read_studies, studies_of_line, studies_of_text
 
-__all__ = ["Line", "Run", "read", "read_studies", "read_text", "studies_of_line", "studies_of_text"]
+__all__ = [
+    "Line",
+    "Run",
+    "alone",
+    "case_text",
+    "read",
+    "read_studies",
+    "read_text",
+    "studies_of_line",
+    "studies_of_text",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -4,6 +4,7 @@ their uncertainty.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,16 @@ def _fitted(table: FitTable, folder: Path) -> Fit:
                 key=table.test, sort=_(thing.card.sort)
             )
         )
-    return thing.read(folder / table.data, **table.conditions).fit()
+    return thing.read(_data_of(table, folder), **table.conditions).fit()
+
+
+def _data_of(table: FitTable, folder: Path) -> Any:
+    """The data file, or the table itself where the case holds it."""
+    if not table.holds_data:
+        return folder / table.data
+    source = io.BytesIO(table.data.encode())
+    source.name = "data.csv"
+    return source
 
 
 def fitted_values(fits: Mapping[str, tuple[Fit, str]]) -> dict[str, float]:

@@ -15,7 +15,7 @@ from granum.cases.schema import Case, DynamicTable, FeedTable, MixtureTable, Str
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.documents import read_toml
-from granum.core.errors import CaseError, GranumError, InputError, unknown_name
+from granum.core.errors import CaseError, GranumError, InputError, reason_of, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
@@ -53,7 +53,8 @@ def text_of(path: Path) -> str:
         return path.read_text(encoding="utf-8")
     except OSError as problem:
         raise CaseError(
-            _("'{path}' cannot be read: {reason}.").format(path=path, reason=problem.strerror), path=str(path)
+            _("'{path}' cannot be read: {reason}.").format(path=path, reason=reason_of(problem)),
+            path=str(path),
         ) from None
     except UnicodeDecodeError:
         raise CaseError(

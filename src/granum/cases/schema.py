@@ -99,14 +99,21 @@ class Project(_Strict):
 
 
 class FitTable(_Strict):
-    """A lab test read from a data file beside the case; what it estimates goes into the line with its
-    uncertainty.
+    """A lab test read from a data file beside the case, or from the case itself; what it estimates goes into
+    the line with its uncertainty.
     """
 
     test: str = Field(description="a lab test, as domain.name")
-    data: str = Field(description="CSV or XLSX, relative to the case file")
+    data: str = Field(
+        description="CSV or XLSX, relative to the case file; or the table itself, as text of several lines"
+    )
     conditions: dict[str, Any] = {}
     gives: dict[str, str] = Field(description="input of the line → estimate of the test")
+
+    @property
+    def holds_data(self) -> bool:
+        """Whether the data stand in the case itself."""
+        return "\n" in self.data
 
 
 class Disturbance(_Strict):

@@ -16,7 +16,7 @@ from typing import Any
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.written import read_number
+from granum.core.written import interval
 
 _LIMIT = re.compile(r"^(.*?)(<=|>=|<|>)(.*)$")
 STEPS = {"sweep": 25, "map": 15}
@@ -58,9 +58,7 @@ def study_text(
                 raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=key))
     ranges = {name: _pair(name, value, "..") for name, value in words.items() if ".." in value}
     spreads = {
-        name: _pair(name, value.replace("±", "+-"), "+-")
-        for name, value in words.items()
-        if "+-" in value or "±" in value
+        name: _pair(name, value, "±") for name, value in words.items() if "+-" in value or "±" in value
     }
     fixed = {name: value for name, value in words.items() if name not in ranges and name not in spreads}
     unit = key.rpartition(".")[2] if thing.card.sort == "equipment" else ""
@@ -98,7 +96,7 @@ def study_text(
         else {"title": thing.card.title, "card": key, "inputs": fixed}
     )
     tables = {**model, "uncertain": uncertain, "study": {kind: study}}
-    return "\n".join(f"{json.dumps(name)} = {_toml(value)}" for name, value in tables.items()) + "\n"
+    return "\n".join(f"{json.dumps(name)} = {as_toml(value)}" for name, value in tables.items()) + "\n"
 
 
 def _kind(ranges: int, spreads: int, best: bool, sobol: bool, samples: int | None) -> str:
@@ -136,21 +134,15 @@ def _pair(name: str, value: str, mark: str) -> tuple[str, str]:
     """Both numbers of ``0.3..0.8bar`` or ``1e7+-2e6``, the first with the unit of the second when it has
     none.
     """
-    first, _mark, second = value.partition(mark)
-    low, high = read_number(first), read_number(second)
-    if low is None or high is None:
+    found = interval(value)
+    if found is None or found[2] != mark:
         raise InputError(
             _(
                 "'{name}' = '{value}': write a range as 0.3..0.8bar and a spread as 1e7+-30% or 85+-5um."
             ).format(name=name, value=value),
             name=name,
         )
-    (one, unit), (_two, last) = low, high
-    return (
-        f"{repr(one).removesuffix('.0')} {unit or last}".strip()
-        if mark == ".." or last != "%"
-        else first.strip()
-    ), second.strip()
+    return found[:2]
 
 
 def _spread(mean: str, width: str) -> dict[str, Any]:
@@ -182,9 +174,9 @@ def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
     for name, value in words.items():
         head, dot, rest = name.partition(".")
         if head in parameters:
-            _put(tables["units"][unit], name, value)
+            put(tables["units"][unit], name, value)
         elif head == "mixture" and dot:
-            _put(
+            put(
                 tables["mixture"],
                 rest,
                 [part.strip() for part in value.split(",")]
@@ -192,7 +184,7 @@ def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
                 else value,
             )
         elif dot and (ports is None or head in ports):
-            _put(tables["feeds"].setdefault(head, {"to": f"{unit}.{head}"}), rest, value)
+            put(tables["feeds"].setdefault(head, {"to": f"{unit}.{head}"}), rest, value)
         else:
             raise unknown_name(
                 _("Input"),
@@ -212,7 +204,7 @@ def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
     return {"title": thing.card.title, **tables}
 
 
-def _put(table: dict[str, Any], name: str, value: Any) -> None:
+def put(table: dict[str, Any], name: str, value: Any) -> None:
     """Sets ``a.b`` inside nested tables; a law that has parameters as well is ``a = {law = …}``."""
     head, dot, rest = name.partition(".")
     if not dot:
@@ -223,18 +215,18 @@ def _put(table: dict[str, Any], name: str, value: Any) -> None:
         return
     inner = table.get(head, {})
     table[head] = inner if isinstance(inner, dict) else {"law": inner}
-    _put(table[head], rest, value)
+    put(table[head], rest, value)
 
 
-def _toml(value: Any) -> str:
+def as_toml(value: Any) -> str:
     if isinstance(value, Mapping):
         return (
             "{ "
-            + ", ".join(f"{json.dumps(str(k), ensure_ascii=False)} = {_toml(v)}" for k, v in value.items())
+            + ", ".join(f"{json.dumps(str(k), ensure_ascii=False)} = {as_toml(v)}" for k, v in value.items())
             + " }"
             if value
             else "{}"
         )
     if isinstance(value, list):
-        return "[" + ", ".join(map(_toml, value)) + "]"
+        return "[" + ", ".join(map(as_toml, value)) + "]"
     return json.dumps(value, ensure_ascii=False)

@@ -122,7 +122,7 @@ class BroadbentCallcottBreakage(BreakageFunction):
 
 @formula(
     source="herbst1980",
-    equation=r"S_i = S_i^E\,\frac{P}{H}",
+    equation=r"a = S^E\,\frac{P}{H}",
     title="Selection rate from the specific power (Herbst–Fuerstenau)",
 )
 def selection_rate_herbst_fuerstenau(

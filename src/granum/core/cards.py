@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +11,7 @@ from granum.core.docstrings import written_doc
 from granum.core.index import Entry, entries
 from granum.core.limits import Limit
 from granum.core.parameters import Parameter
+from granum.core.utilities import Use
 
 Ranges = Mapping[str, tuple[float, float]]
 
@@ -27,7 +28,7 @@ class Card:
     source: key in ``references`` with equation, table or page.
     equation: LaTeX.
     family: what it can be passed as, for laws (``drag_coefficient``).
-    limits: practical limits, for equipment.
+    limits: practical limits, utilities: what is taken from outside, for equipment.
     arguments: what a law is called with, besides the parameters that it is made of.
     """
 
@@ -45,6 +46,7 @@ class Card:
     attribute: str
     limits: tuple[Limit, ...] = ()
     arguments: tuple[Parameter, ...] = ()
+    utilities: tuple[Use, ...] = ()
 
     @cached_property
     def entry(self) -> Entry:
@@ -58,6 +60,7 @@ class Card:
             gives=" ".join(p.name for p in self.outputs),
             module=self.module,
             attribute=self.attribute,
+            source=self.source,
         )
 
     @property
@@ -115,6 +118,7 @@ class Card:
             "fitted": {k: [float(a), float(b)] for k, (a, b) in self.fitted.items()},
             "family": self.family,
             "limits": [limit.as_json() for limit in self.limits],
+            "utilities": [use.as_json() for use in self.utilities],
             "doc": self.doc,
         }
 
@@ -144,8 +148,19 @@ def make_card(
     title: str = "",
     limits: tuple[Limit, ...] = (),
     arguments: tuple[Parameter, ...] = (),
+    symbols: Mapping[str, str] | None = None,
+    utilities: tuple[Use, ...] = (),
 ) -> Card:
-    """The card of a declared function or class."""
+    """The card of a declared function or class.
+
+    ``symbols`` by name where those of the glossary do not suit; ``=name`` for a result that bears the name of
+    an input.
+    """
+    own = symbols or {}
+    parameters, arguments = (
+        tuple(replace(p, own_symbol=own.get(p.name, "")) for p in group) for group in (parameters, arguments)
+    )
+    outputs = tuple(replace(p, own_symbol=own.get(f"={p.name}", own.get(p.name, ""))) for p in outputs)
     return Card(
         key=key_of(thing, name),
         sort=sort,
@@ -161,4 +176,5 @@ def make_card(
         attribute=thing.__name__,
         limits=limits,
         arguments=arguments,
+        utilities=utilities,
     )

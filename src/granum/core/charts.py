@@ -10,7 +10,7 @@ import numpy as np
 import plotly.graph_objects as go
 
 from granum.core.glossary import glossary
-from granum.core.i18n import current_language
+from granum.core.i18n import _, current_language
 from granum.core.symbols import html_symbol
 from granum.core.units import pretty_unit
 
@@ -162,6 +162,33 @@ def add_band(chart: go.Figure, x: Any, low: Any, high: Any, name: str, *, color:
             name=name,
             hoverinfo="skip",
         )
+    )
+
+
+def add_residuals(chart: go.Figure, x: Any, residuals: Any, kept: Any, unit: str) -> None:
+    """What was measured less the model, under the points on the same axis; hollow where excluded."""
+    marker = {
+        "color": [INK if used else "white" for used in kept],
+        "size": 6,
+        "line": {"color": INK, "width": 1.5},
+    }
+    chart.add_scatter(
+        x=x, y=residuals, yaxis="y2", mode="markers", marker=marker, name=_("residuals"), showlegend=False
+    )
+    title = _("measured − model") + (f" / {pretty_unit(unit)}" if pretty_unit(unit) else "")
+    chart.update_layout(
+        height=600,
+        xaxis={"anchor": "y2"},
+        yaxis={"domain": [0.34, 1.0]},
+        yaxis2={
+            **_AXIS,
+            "domain": [0.0, 0.24],
+            "anchor": "x",
+            "title": {"text": title, "font": {"size": 11}},
+            "zeroline": True,
+            "zerolinecolor": INK,
+            "nticks": 4,
+        },
     )
 
 

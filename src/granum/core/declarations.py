@@ -7,7 +7,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar, get_type_hints
 
@@ -23,6 +23,8 @@ from granum.core.notices import describe
 from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
+from granum.core.utilities import Use
+from granum.core.utilities import parameter as used
 
 T = TypeVar("T")
 
@@ -75,6 +77,7 @@ def _declare(
     family: str,
     title: str,
     results: Callable[..., Any] | None,
+    symbols: Mapping[str, str] | None = None,
 ) -> type[T]:
     def build() -> Card:
         outputs: tuple[Parameter, ...] = ()
@@ -100,6 +103,8 @@ def _declare(
             family=family,
             title=title,
             limits=tuple(getattr(cls, "limits", {}).values()),
+            symbols=symbols,
+            utilities=tuple(Use(used(n), u) for n, u in getattr(cls, "utilities", {}).items()),
         )
 
     original = cls.__init__
@@ -182,13 +187,15 @@ def law(
     fitted: Ranges | None = None,
     typical: Ranges | None = None,
     title: str = "",
+    symbols: Mapping[str, str] | None = None,
 ) -> Callable[[type[T]], type[T]]:
     """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the
     law.
 
     ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share
     the family. ``fitted`` are ranges over which the source holds, by parameter, argument of the call or
-    result (the family's name), SI units.
+    result (the family's name), SI units. ``symbols`` are those of this equation by name, where the glossary's
+    do not suit.
     """
 
     def declare(cls: type[T]) -> type[T]:
@@ -199,7 +206,17 @@ def law(
                 type.__setattr__(cls, "called", classmethod(_called))
                 type.__setattr__(cls, "evaluate", classmethod(_evaluate))
         return _declare(
-            cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__
+            cls,
+            name,
+            "law",
+            source,
+            equation,
+            fitted or {},
+            typical or {},
+            family,
+            title,
+            cls.__call__,
+            symbols,
         )
 
     return declare

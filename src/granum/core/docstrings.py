@@ -75,7 +75,7 @@ def _end(value: float | str) -> str:
 
 
 def _named(p: Parameter) -> list[str]:
-    symbol = text_symbol(p.term.symbol) if p.term and p.term.symbol else ""
+    symbol = text_symbol(p.symbol)
     return [p.label + (f" {symbol}" if symbol else ""), pretty_unit(p.kind.unit) if p.kind else ""]
 
 

@@ -24,8 +24,45 @@ def read_toml(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
-        raise InputError(str(problem)) from None
+        raise InputError(_worded(str(problem))) from None
     except RecursionError:
         raise InputError(_("tables stand in tables deeper than {count}").format(count=DEEPEST)) from None
     except ValueError:  # Python reads no whole number of more than 4300 digits
         raise InputError(_("a number has more digits than can be read")) from None
+
+
+_SAID = re.compile(
+    r"(?P<what>.*) \(at (?:line (?P<line>\d+), column (?P<column>\d+)|end of document)\)", re.DOTALL
+)
+_NAMED = (
+    ("Cannot declare {name} twice", r"Cannot declare (.+) twice"),
+    ("Table {name} is closed already", r"Cannot (?:mutate immutable|redefine) namespace (.+)"),
+    ("Key {name} stands twice in one table", r"Duplicate inline table key (.+)"),
+    ("{name} is expected here", r"Expected ('=' .+|'\](?:\])?' .+|'.+')"),
+    ("{name} is no character of TOML", r"(?:Found invalid|Illegal) character (.+)"),
+)
+
+
+def _worded(said: str) -> str:
+    """What the parser of TOML says, in the current language.
+
+    >>> _worded("Cannot declare ('units', 'dryer') twice (at line 2, column 3)")
+    'Cannot declare units.dryer twice (line 2, column 3)'
+    """
+    found = _SAID.fullmatch(said)
+    if not found:
+        return _(said)
+    what = found["what"]
+    for template, pattern in _NAMED:
+        if named := re.fullmatch(pattern, what, re.DOTALL):
+            key = ".".join(re.findall(r"'([^']*)'", named[1])) if named[1].startswith("(") else named[1]
+            what = _(template).format(name=re.sub(r" (?:after|at) .*", "", key))
+            break
+    else:
+        what = _(what)
+    at = (
+        _("line {line}, column {column}").format(line=found["line"], column=found["column"])
+        if found["line"]
+        else _("end of the text")
+    )
+    return f"{what} ({at})"

@@ -74,3 +74,8 @@ def unknown_name(what: str, name: str, known: Iterable[str], where: str = "") ->
         shown = ", ".join(known[:12]) + (" …" if len(known) > 12 else "")
         message += " " + _("Known names: {names}.").format(names=shown)
     return InputError(message, name=name, did_you_mean=close)
+
+
+def reason_of(problem: OSError) -> str:
+    """Why the system refuses, in the current language."""
+    return _(problem.strerror) if problem.strerror else str(problem)

@@ -7,7 +7,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from granum.core.errors import InputError
+from granum.core.errors import InputError, reason_of
 from granum.core.i18n import _
 
 
@@ -19,7 +19,7 @@ def write_atomic(path: str | Path, content: str | bytes) -> None:
         handle, name = tempfile.mkstemp(dir=target.parent or ".", prefix=f".{target.name}.")
     except OSError as problem:
         raise InputError(
-            _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror),
+            _("'{path}' cannot be written: {reason}.").format(path=path, reason=reason_of(problem)),
             path=str(path),
         ) from None
     try:
@@ -32,7 +32,7 @@ def write_atomic(path: str | Path, content: str | bytes) -> None:
     except OSError as problem:
         Path(name).unlink(missing_ok=True)
         raise InputError(
-            _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror),
+            _("'{path}' cannot be written: {reason}.").format(path=path, reason=reason_of(problem)),
             path=str(path),
         ) from None
 
@@ -46,7 +46,7 @@ def check_writable(path: str | Path) -> None:
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     except OSError as problem:
         raise InputError(
-            _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror),
+            _("'{path}' cannot be written: {reason}.").format(path=path, reason=reason_of(problem)),
             path=str(path),
         ) from None
     os.close(handle)

@@ -24,7 +24,7 @@ from granum.core.docstrings import CompletedDoc
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
-from granum.core.notices import describe
+from granum.core.notices import beside, describe
 from granum.core.parameters import Parameter, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
@@ -76,12 +76,14 @@ class Formula(Generic[P, R]):
         title: str,
         output: str,
         family: str,
+        symbols: Mapping[str, str],
     ):
         self.function: Callable[..., R] = function
         self.fitted = fitted
         self.source = source
         self._declared = {"equation": equation, "title": title, "family": family}
         self._typical = typical
+        self._symbols = symbols
         self._compiled: dict[Any, Callable[..., Any]] = {}
         self._prepared: dict[tuple[str, ...], tuple[Any, ...]] = {}
         functools.update_wrapper(self, function)
@@ -107,6 +109,7 @@ class Formula(Generic[P, R]):
             fitted=self.fitted,
             family=family,
             title=self._declared["title"],
+            symbols=self._symbols,
         )
 
     @functools.cached_property
@@ -236,7 +239,10 @@ class Formula(Generic[P, R]):
         found = self._compiled.get((key, sort))
         if found is None:
             body = {"bare": self._bare, "masked": self._masked, "checked": self._checked}[sort]
-            found = self._compiled[(key, sort)] = begun(lambda *dynamic: body(self._merged(key, dynamic)))
+            found = self._compiled[(key, sort)] = begun(
+                lambda *dynamic: body(self._merged(key, dynamic)),
+                (self, sort, tuple("" if item is _DYNAMIC else (item,) for item in key)),
+            )
         return found
 
     def _bare(self, values: list[Any]) -> Any:
@@ -445,7 +451,15 @@ class Formula(Generic[P, R]):
             if not isinstance(out, tuple)
             else np.shape(jax.tree.leaves(out)[0])
         )
-        result = Result(self.card, inputs, _floats(out), flags.bits(records, shape), describe(records))
+        own = {p.name for p in (*self.card.parameters, *self.card.outputs)}
+        result = Result(
+            self.card,
+            inputs,
+            _floats(out),
+            flags.bits(records, shape),
+            describe(records),
+            beside=[] if shape else beside(records, own),
+        )
         steps = _steps.get()
         if steps is not None:
             steps.append(result)
@@ -466,6 +480,7 @@ def formula(
     title: str = "",
     output: str = "",
     family: str = "",
+    symbols: Mapping[str, str] | None = None,
 ) -> Callable[[Callable[P, R]], Formula[P, R]]:
     """Declare a formula.
 
@@ -479,6 +494,8 @@ def formula(
     title: English title; by default the glossary label with the author from the name.
     output: glossary name of the result; by default the glossary word the function name starts with.
     family: name under which it can be passed as a law; by default the output name.
+    symbols: LaTeX symbols in this equation by name, where those of the glossary do not suit; ``=name`` for a
+        result that bears the name of an input.
     """
 
     def declare(function: Callable[P, R]) -> Formula[P, R]:
@@ -491,6 +508,7 @@ def formula(
             title=title,
             output=output,
             family=family,
+            symbols=symbols or {},
         )
 
     return declare

@@ -9,7 +9,7 @@ from importlib.resources import files
 from typing import Any
 
 from granum.core.errors import unknown_name
-from granum.core.i18n import _, catalog, current_language
+from granum.core.i18n import _, catalog, current_language, typographic
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def glossary() -> dict[str, Term]:
                 name,
                 row["symbol"],
                 row["en"],
-                row["fr"],
+                typographic(row["fr"]),
                 (float(low), float(high)),
                 row.get("unit"),
                 tuple(row.get("also", ())),

@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -51,7 +52,7 @@ def language(code: str) -> Iterator[None]:
 
 @cache
 def catalog(code: str) -> dict[str, str]:
-    """All translated messages of a language, English text → translation."""
+    """All translated messages of a language, English text → translation, with typographic apostrophes."""
     from babel.messages.pofile import read_po
 
     messages: dict[str, str] = {}
@@ -60,8 +61,17 @@ def catalog(code: str) -> dict[str, str]:
             with path.open("rb") as stream:
                 for message in read_po(stream, locale=code):
                     if message.id and message.string and not message.fuzzy:
-                        messages[str(message.id)] = str(message.string)
+                        messages[str(message.id)] = typographic(str(message.string))
     return messages
+
+
+def typographic(text: str) -> str:
+    """A text with the apostrophe of print where a straight one stands between letters.
+
+    >>> typographic("l'eau de '{name}'")
+    "l’eau de '{name}'"
+    """
+    return re.sub(r"(?<=\w)'(?=[\w«])", "’", text)
 
 
 def _(text: str) -> str:

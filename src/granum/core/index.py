@@ -6,8 +6,6 @@ It stands in ``granum/core/index.csv``, which ``python -m granum.core.stubs`` wr
 from __future__ import annotations
 
 import csv
-import unicodedata
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -27,8 +25,8 @@ class Entry:
     given_title, english_summary: its texts.
     gives: names of its outputs, with spaces between.
     module, attribute: where it is declared.
-    english_title: title in English, written down because it takes the French words to tell authors from
-        others.
+    source: as on the card.
+    english_title, french_title, french_summary: written down, because they take the French words.
     """
 
     key: str
@@ -39,7 +37,10 @@ class Entry:
     gives: str
     module: str
     attribute: str
+    source: str = ""
     english_title: str = ""
+    french_title: str = ""
+    french_summary: str = ""
 
     @property
     def domain(self) -> str:
@@ -56,13 +57,15 @@ class Entry:
         """Title in the current language: as declared, else the glossary label with the author of the
         correlation.
         """
-        if self.english_title and current_language() == "en":
-            return self.english_title
+        written = self.french_title if current_language() == "fr" else self.english_title
+        if written:
+            return written
         if self.given_title:
             return _(self.given_title)
         word = quantity_in(self.name)
         if word is None:
-            return self.name.replace("_", " ").capitalize()
+            title = ending(self.name)
+            return title[:1].upper() + title[1:]
         label = term(word).label
         rest = self.name[len(word) :].strip("_")
         label = label[0].upper() + label[1:]
@@ -71,21 +74,7 @@ class Entry:
     @property
     def summary(self) -> str:
         """First sentence of the docstring, in the current language."""
-        return _(self.english_summary)
-
-    @property
-    def other_names(self) -> str:
-        """Other names, in either language, of what it is about and what it gives."""
-        words = dict.fromkeys(map(quantity_in, (self.name, self.family, *self.gives.split())))
-        return ", ".join(dict.fromkeys(name for word in words if word for name in term(word).also))
-
-    def answers(self, words: Iterable[str]) -> bool:
-        """Whether all words stand in key, title, summary or other names; case and accents do not count."""
-        sought = [plain(word) for word in words]
-        if not sought:
-            return True
-        text = plain(f"{self.key} {self.title} {self.summary} {self.other_names}")
-        return all(word in text for word in sought)
+        return (self.french_summary if current_language() == "fr" else "") or _(self.english_summary)
 
 
 @cache
@@ -97,9 +86,3 @@ def entries() -> dict[str, Entry]:
     """
     text = (files("granum") / "core" / "index.csv").read_text(encoding="utf-8")
     return {row["key"]: Entry(**row) for row in csv.DictReader(text.splitlines())}
-
-
-def plain(text: str) -> str:
-    """Small letters without accents, by which texts are compared in a search."""
-    apart = unicodedata.normalize("NFD", text.lower())
-    return "".join(letter for letter in apart if not unicodedata.combining(letter))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -57,13 +58,53 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
     return list(rows.values())
 
 
+def beside(records: list[Record], own: Collection[str]) -> list[dict[str, Any]]:
+    """Single numbers that a calculation went through and whose range a source states, such as a Reynolds
+    number; not those of the names ``own``. Each value stands once, under the range that says most.
+    """
+    found: dict[tuple[str, str], dict[str, Any]] = {}
+    for told in records:
+        low, high = told.low, told.high
+        value = np.asarray(told.value, dtype=float)
+        stated = told.bit == EXTRAPOLATED and not told.reason and told.computed is None
+        if (
+            not stated
+            or told.name in own
+            or value.size != 1
+            or not np.isfinite(value).all()
+            or not (np.isfinite(low) or np.isfinite(high))
+        ):
+            continue
+        number = value.item()
+        row = {
+            "name": told.name,
+            "value": number,
+            "low": low if np.isfinite(low) else None,
+            "high": high if np.isfinite(high) else None,
+            "card": told.card,
+            "source": told.source,
+        }
+        before = found.get(key := (told.name, f"{number:.4g}"))
+        if before is None or _width(row) < _width(before):
+            found[key] = row
+    return list(found.values())
+
+
+def _width(row: dict[str, Any]) -> float:
+    """How wide a range is, for one that lies above zero on a scale of ratios."""
+    low, high = row["low"], row["high"]
+    if low is None or high is None:
+        return np.inf
+    return float(np.log(high / low)) if low > 0 else 1e6 + high - low
+
+
 def _elements(row: dict[str, Any], values: np.ndarray, total: int) -> str:
     """Which elements a limit concerns: how many of how many where there are several, and their values."""
     values = values[np.isfinite(values)]
     if not values.size:
         return ""
     low, high = float(values.min()), float(values.max())
-    shown, unit = _units_of({**row, "worst": high})
+    shown, unit = units_of({**row, "worst": high})
     span = f"{shown(low)}{unit}" if low == high else f"{shown(low)} … {shown(high)}{unit}"
     word = quantity_in(row["name"])
     name = term(word).label if word else row["name"]
@@ -78,7 +119,7 @@ def _sentence(row: dict[str, Any]) -> str:
     """One readable line for a flag."""
     word = quantity_in(row["name"])
     name = term(word).label if word else row["name"]
-    shown, unit = _units_of(row)
+    shown, unit = units_of(row)
     value = "" if row["worst"] is None else f" = {shown(row['worst'])}{unit}"
     span = ""
     if row["low"] is not None or row["high"] is not None:
@@ -96,7 +137,7 @@ def _sentence(row: dict[str, Any]) -> str:
     return templates[row["flag"]].format(name=name, value=value, span=span, card=row["card"])
 
 
-def _units_of(row: dict[str, Any]) -> tuple[Any, str]:
+def units_of(row: dict[str, Any]) -> tuple[Any, str]:
     """How to print the numbers of a flag, and their unit: those of the card's parameter where the flag is
     about one.
     """

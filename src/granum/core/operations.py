@@ -14,25 +14,31 @@ from typing import Any
 import jax
 import numpy as np
 
+from granum.core.traces import Operation
+
 Step = Callable[..., Any]
 
 
-def operation(eqn: Any) -> Step:
+def operation(op: Operation) -> Step:
     """The function of its inputs that one operation of a program is."""
-    name = eqn.primitive.name
-    if name in PLAIN:
-        return PLAIN[name]
-    made = SHAPED[name](eqn.params, eqn) if name in SHAPED else None
-    return made or _by_jax(eqn)
+    return of_numpy(op) or _by_jax(op)
 
 
-def _by_jax(eqn: Any) -> Step:
+def of_numpy(op: Operation) -> Step | None:
+    """The same, where NumPy does it."""
+    if op.name in PLAIN:
+        return PLAIN[op.name]
+    return SHAPED[op.name](op.params, op) if op.name in SHAPED else None
+
+
+def _by_jax(op: Operation) -> Step:
     """One operation as JAX does it."""
-    fixed, several = eqn.params, eqn.primitive.multiple_results
+    primitive, fixed = op.whole.primitive, op.whole.params
+    several = primitive.multiple_results
 
     def step(*values: Any) -> Any:
         with jax.ensure_compile_time_eval():  # a program may run while another is being traced
-            found = eqn.primitive.bind(*values, **fixed)
+            found = primitive.bind(*values, **fixed)
         out = [np.asarray(x)[()] for x in found] if several else np.asarray(found)[()]
         return out[0] if several and len(out) == 1 else out
 
@@ -106,7 +112,7 @@ PLAIN: dict[str, Step] = {
 }
 
 
-def _integer_pow(params: Any, _eqn: Any) -> Step:
+def _integer_pow(params: Any, _op: Operation) -> Step:
     y = params["y"]
 
     def power(x: Any) -> Any:
@@ -122,8 +128,8 @@ def _integer_pow(params: Any, _eqn: Any) -> Step:
     return power
 
 
-def _select(_params: Any, eqn: Any) -> Step:
-    which = eqn.invars[0].aval
+def _select(_params: Any, op: Operation) -> Step:
+    which = op.given[0]
     if which.dtype != bool:
         return lambda which, *cases: np.choose(which, cases)
     if which.shape:
@@ -131,11 +137,11 @@ def _select(_params: Any, eqn: Any) -> Step:
     return lambda which, off, on: on if which else off
 
 
-def _broadcast(params: Any, eqn: Any) -> Step | None:
+def _broadcast(params: Any, op: Operation) -> Step | None:
     shape, along = params["shape"], params["broadcast_dimensions"]
-    if len(eqn.invars) > 1:
+    if len(op.given) != 1:
         return None
-    size = eqn.invars[0].aval.shape
+    size = op.given[0].shape
     between = [1] * len(shape)
     for i, axis in enumerate(along):
         between[axis] = size[i]
@@ -153,28 +159,28 @@ def _broadcast(params: Any, eqn: Any) -> Step | None:
 
 
 def _reduction(function: np.ufunc) -> Callable[[Any, Any], Step | None]:
-    def made(params: Any, eqn: Any) -> Step | None:
+    def made(params: Any, op: Operation) -> Step | None:
         if params.get("out_sharding") is not None:
             return None
-        axes, nothing = params["axes"], eqn.invars[0].aval.size == 0
+        axes, nothing = params["axes"], op.given[0].size == 0
         if nothing and function in (np.maximum, np.minimum):
             least = -np.inf if function is np.maximum else np.inf
-            return (lambda x: function.reduce(x, axes, initial=least)) if _is_float(eqn) else None
+            return (lambda x: function.reduce(x, axes, initial=least)) if _is_float(op) else None
         return lambda x: function.reduce(x, axes)
 
     return made
 
 
-def _is_float(eqn: Any) -> bool:
-    return eqn.invars[0].aval.dtype.kind == "f"
+def _is_float(op: Operation) -> bool:
+    return op.given[0].dtype.kind == "f"
 
 
 def _extreme_place(function: Step) -> Callable[[Any, Any], Step]:
-    return lambda params, _eqn: lambda x: function(x, axis=params["axes"][0]).astype(params["index_dtype"])
+    return lambda params, _op: lambda x: function(x, axis=params["axes"][0]).astype(params["index_dtype"])
 
 
 def _running(function: Step) -> Callable[[Any, Any], Step]:
-    def made(params: Any, _eqn: Any) -> Step:
+    def made(params: Any, _op: Operation) -> Step:
         axis = params["axis"]
         if params["reverse"]:
             return lambda x: np.flip(function(np.flip(x, axis), axis=axis), axis)
@@ -183,7 +189,7 @@ def _running(function: Step) -> Callable[[Any, Any], Step]:
     return made
 
 
-def _slice(params: Any, _eqn: Any) -> Step:
+def _slice(params: Any, _op: Operation) -> Step:
     strides = params["strides"] or (1,) * len(params["start_indices"])
     place = tuple(map(slice, params["start_indices"], params["limit_indices"], strides))
     return lambda x: x[place]
@@ -194,11 +200,11 @@ def _window(start: Sequence[Any], sizes: Sequence[int], shape: Sequence[int]) ->
     return tuple(slice(first, first + size) for first, size in zip(firsts, sizes, strict=True))
 
 
-def _dynamic_slice(params: Any, _eqn: Any) -> Step:
+def _dynamic_slice(params: Any, _op: Operation) -> Step:
     return lambda x, *start: x[_window(start, params["slice_sizes"], x.shape)]
 
 
-def _dynamic_update(_params: Any, _eqn: Any) -> Step:
+def _dynamic_update(_params: Any, _op: Operation) -> Step:
     def step(x: Any, piece: Any, *start: Any) -> Any:
         out = np.array(x)
         out[_window(start, piece.shape, out.shape)] = piece
@@ -207,14 +213,14 @@ def _dynamic_update(_params: Any, _eqn: Any) -> Step:
     return step
 
 
-def _product(params: Any, eqn: Any) -> Step | None:
+def _product(params: Any, op: Operation) -> Step | None:
     (left, right), (left_batch, right_batch) = params["dimension_numbers"]
-    if params["preferred_element_type"] not in (None, eqn.invars[0].aval.dtype):
+    if params["preferred_element_type"] not in (None, op.given[0].dtype):
         return None
     if left_batch:
         letters = iter(string.ascii_letters)
-        first = [next(letters) for _axis in eqn.invars[0].aval.shape]
-        second = [next(letters) for _axis in eqn.invars[1].aval.shape]
+        first = [next(letters) for _axis in op.given[0].shape]
+        second = [next(letters) for _axis in op.given[1].shape]
         for i, j in zip((*left_batch, *left), (*right_batch, *right), strict=True):
             second[j] = first[i]
         kept = [first[i] for i in left_batch]
@@ -227,22 +233,22 @@ def _product(params: Any, eqn: Any) -> Step | None:
 
 def _each(function: Callable[[float], float]) -> Callable[[Any, Any], Step]:
     each = np.frompyfunc(function, 1, 1)
-    return lambda _params, _eqn: lambda x: np.asarray(each(x), x.dtype)[()]
+    return lambda _params, _op: lambda x: np.asarray(each(x), x.dtype)[()]
 
 
 def _lgamma(x: float) -> float:
     return math.inf if x <= 0.0 and (math.isinf(x) or x == math.floor(x)) else math.lgamma(x)
 
 
-def _orthogonal(params: Any, eqn: Any) -> Step | None:
-    if params["pivoting"] or eqn.invars[0].aval.ndim != 2:
+def _orthogonal(params: Any, op: Operation) -> Step | None:
+    if params["pivoting"] or op.given[0].ndim != 2:
         return None
     mode = "complete" if params["full_matrices"] else "reduced"
     return lambda x: np.linalg.qr(x, mode)
 
 
-def _triangular(params: Any, eqn: Any) -> Step | None:
-    if not params["left_side"] or eqn.invars[0].aval.ndim != 2 or eqn.invars[0].aval.dtype.kind == "c":
+def _triangular(params: Any, op: Operation) -> Step | None:
+    if not params["left_side"] or op.given[0].ndim != 2 or op.given[0].dtype.kind == "c":
         return None
     keep, unit = (np.tril if params["lower"] else np.triu), params["unit_diagonal"]
 
@@ -258,9 +264,9 @@ def _triangular(params: Any, eqn: Any) -> Step | None:
     return step
 
 
-def _convert(params: Any, eqn: Any) -> Step:
+def _convert(params: Any, op: Operation) -> Step:
     target = np.dtype(params["new_dtype"])
-    if eqn.invars[0].aval.dtype.kind != "f" or target.kind not in "iu":
+    if op.given[0].dtype.kind != "f" or target.kind not in "iu":
         return lambda x: x.astype(target)
     low, high = float(np.iinfo(target).min), np.nextafter(float(np.iinfo(target).max), 0.0)
     # beyond the ends and without a number as XLA does it
@@ -277,9 +283,9 @@ def _places(indices: Any, mode: Any, sizes: Sequence[int]) -> tuple[tuple[Any, .
     return clipped, np.ones_like(inside)
 
 
-def _gather(params: Any, eqn: Any) -> Step | None:
+def _gather(params: Any, op: Operation) -> Step | None:
     """Whole rows picked by index, along some axes; other patterns are left to JAX."""
-    numbers, shape, mode = params["dimension_numbers"], eqn.invars[0].aval.shape, params["mode"]
+    numbers, shape, mode = params["dimension_numbers"], op.given[0].shape, params["mode"]
     indexed = tuple(numbers.start_index_map)
     others = tuple(axis for axis in range(len(shape)) if axis not in indexed)
     full = all(params["slice_sizes"][axis] == shape[axis] for axis in others)
@@ -287,7 +293,7 @@ def _gather(params: Any, eqn: Any) -> Step | None:
         return None
     sizes, fill = [shape[axis] for axis in indexed], params["fill_value"]
     if fill is None:
-        if eqn.outvars[0].aval.dtype.kind != "f":
+        if op.made[0].dtype.kind != "f":
             return None
         fill = np.nan
 
@@ -307,11 +313,11 @@ def _gather(params: Any, eqn: Any) -> Step | None:
 def _scatter(put: Callable[[Any, Any, Any], None]) -> Callable[[Any, Any], Step | None]:
     """Whole rows changed by index, or one window; other patterns are left to JAX."""
 
-    def made(params: Any, eqn: Any) -> Step | None:
+    def made(params: Any, op: Operation) -> Step | None:
         numbers, mode = params["dimension_numbers"], params["mode"]
         if numbers.operand_batching_dims:
             return None
-        shape, given = eqn.invars[0].aval.shape, eqn.invars[2].aval.shape
+        shape, given = op.given[0].shape, op.given[2].shape
         indexed, inserted = tuple(numbers.scatter_dims_to_operand_dims), set(numbers.inserted_window_dims)
         others = tuple(axis for axis in range(len(shape)) if axis not in indexed)
         windows = iter(numbers.update_window_dims)
@@ -334,7 +340,7 @@ def _scatter(put: Callable[[Any, Any, Any], None]) -> Callable[[Any, Any], Step 
             put(np.transpose(out, indexed + others), tuple(p[inside] for p in places), along[inside])
             return out
 
-        if eqn.invars[1].aval.ndim == 1:
+        if op.given[1].ndim == 1:
             return window if "CLIP" not in str(mode) else None
         whole = all(sizes[axis] == shape[axis] for axis in others)
         return rows if inserted == set(indexed) and whole else None
@@ -346,15 +352,15 @@ def _put(out: Any, places: Any, values: Any) -> None:
     out[places] = values
 
 
-def _split(params: Any, _eqn: Any) -> Step:
+def _split(params: Any, _op: Operation) -> Step:
     ends = np.cumsum(params["sizes"])[:-1]
     if not ends.size:
         return lambda x: x
     return lambda x: np.split(x, ends, axis=params["axis"])
 
 
-def _iota(params: Any, eqn: Any) -> Step | None:
-    if eqn.invars:
+def _iota(params: Any, op: Operation) -> Step | None:
+    if op.given:
         return None
     shape, along = params["shape"], params["dimension"]
     counts = np.arange(shape[along], dtype=params["dtype"])
@@ -362,7 +368,39 @@ def _iota(params: Any, eqn: Any) -> Step | None:
     return lambda: whole
 
 
-def _rounding(params: Any, _eqn: Any) -> Step | None:
+def _padded(params: Any, _op: Operation) -> Step | None:
+    config = params["padding_config"]
+    if any(low < 0 or high < 0 or between for low, high, between in config):
+        return None
+    widths = [(int(low), int(high)) for low, high, _between in config]
+    return lambda x, filling: np.pad(x, widths, constant_values=filling)
+
+
+def _triangles(_params: Any, op: Operation) -> Step | None:
+    """The factors of a square matrix, its rows exchanged, and the order of the rows."""
+    if op.given[0].ndim != 2 or op.given[0].dtype != float:
+        return None
+    kind = op.made[1].dtype
+
+    def step(x: Any) -> Any:
+        from scipy.linalg.lapack import dgetrf
+
+        factors, pivots, _fault = dgetrf(x)
+        order = np.arange(len(x))
+        for i, other in enumerate(pivots):
+            order[[i, other]] = order[[other, i]]
+        return factors, pivots.astype(kind), order.astype(kind)
+
+    return step
+
+
+def _platform(params: Any, _op: Operation) -> Step:
+    here = jax.default_backend()
+    which = next(i for i, names in enumerate(params["platforms"]) if names is None or here in names)
+    return lambda: np.int32(which)
+
+
+def _rounding(params: Any, _op: Operation) -> Step | None:
     return np.rint if int(params["rounding_method"]) == 1 else None
 
 
@@ -371,19 +409,19 @@ SHAPED: dict[str, Callable[[Any, Any], Step | None]] = {
     "select_n": _select,
     "broadcast_in_dim": _broadcast,
     "convert_element_type": _convert,
-    "bitcast_convert_type": lambda params, eqn: (
+    "bitcast_convert_type": lambda params, op: (
         (lambda x: x.view(params["new_dtype"]))
-        if np.dtype(params["new_dtype"]).itemsize == eqn.invars[0].aval.dtype.itemsize
+        if np.dtype(params["new_dtype"]).itemsize == op.given[0].dtype.itemsize
         else None
     ),
-    "reshape": lambda params, _eqn: (
+    "reshape": lambda params, _op: (
         (lambda x: np.reshape(x, params["new_sizes"])[()]) if params["dimensions"] is None else None
     ),
-    "squeeze": lambda params, _eqn: lambda x: np.squeeze(x, params["dimensions"])[()],
-    "expand_dims": lambda params, _eqn: lambda x: np.expand_dims(x, params["dimensions"]),
-    "transpose": lambda params, _eqn: lambda x: np.transpose(x, params["permutation"]),
-    "rev": lambda params, _eqn: lambda x: np.flip(x, params["dimensions"]),
-    "concatenate": lambda params, _eqn: lambda *parts: np.concatenate(parts, axis=params["dimension"]),
+    "squeeze": lambda params, _op: lambda x: np.squeeze(x, params["dimensions"])[()],
+    "expand_dims": lambda params, _op: lambda x: np.expand_dims(x, params["dimensions"]),
+    "transpose": lambda params, _op: lambda x: np.transpose(x, params["permutation"]),
+    "rev": lambda params, _op: lambda x: np.flip(x, params["dimensions"]),
+    "concatenate": lambda params, _op: lambda *parts: np.concatenate(parts, axis=params["dimension"]),
     "slice": _slice,
     "dynamic_slice": _dynamic_slice,
     "dynamic_update_slice": _dynamic_update,
@@ -406,10 +444,13 @@ SHAPED: dict[str, Callable[[Any, Any], Step | None]] = {
     "scatter": _scatter(_put),
     "scatter-add": _scatter(np.add.at),
     "scatter-mul": _scatter(np.multiply.at),
-    "stack": lambda params, _eqn: lambda *parts: np.stack(parts, axis=params["axis"]),
+    "stack": lambda params, _op: lambda *parts: np.stack(parts, axis=params["axis"]),
     "split": _split,
     "iota": _iota,
     "round": _rounding,
+    "pad": _padded,
+    "lu": _triangles,
+    "platform_index": _platform,
     "erf": _each(math.erf),
     "erfc": _each(math.erfc),
     "lgamma": _each(_lgamma),

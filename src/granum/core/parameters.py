@@ -33,6 +33,7 @@ class Parameter:
     within: smallest and largest whole number.
     typical: range of ordinary values, SI.
     fitted: range over which the source holds, SI.
+    own_symbol: LaTeX symbol on its card, where that of the glossary does not suit.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Parameter:
     optional: bool = False
     typical: tuple[float, float] | None = None
     fitted: tuple[float, float] | None = None
+    own_symbol: str = ""
 
     @property
     def required(self) -> bool:
@@ -82,6 +84,12 @@ class Parameter:
         return f"{found.label} ({ending(rest)})" if rest else found.label
 
     @property
+    def symbol(self) -> str:
+        """Its symbol in LaTeX, as in the equation of its card; empty where it has none."""
+        found = self.term
+        return self.own_symbol or (found.symbol if found else "")
+
+    @property
     def units(self) -> tuple[str, ...]:
         """Units to offer, the usual one first."""
         if self.kind is None:
@@ -112,11 +120,10 @@ class Parameter:
 
     def as_json(self) -> dict[str, Any]:
         """The declaration as plain data, for forms and documentation."""
-        found = self.term
         row: dict[str, Any] = {
             "name": self.name,
             "label": self.label,
-            "symbol": found.symbol if found else "",
+            "symbol": self.symbol,
         }
         if self.kind:
             row |= {

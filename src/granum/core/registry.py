@@ -31,10 +31,12 @@ DOMAINS = (
     "centrifuges",
     "crystallization",
     "drying",
+    "dust",
     "studies",
     "costs",
 )
 _declared: dict[str, Any] = {}
+_keys: dict[int, str] = {}
 _families: dict[str, dict[str, Any]] = {}
 _loaded: set[str] = set()
 _offered: dict[str, tuple[str, ...]] = {}
@@ -80,6 +82,14 @@ def known(key: str) -> Any:
     if key not in _declared and key.partition(".")[0] in DOMAINS:  # not in the index yet
         load(key.partition(".")[0])
     return _declared.get(key)
+
+
+def key_of(thing: Any) -> str | None:
+    """The key under which something is declared."""
+    if len(_keys) < len(_declared):
+        _keys.update((id(declared), key) for key, declared in _declared.items())
+    key = _keys.get(id(thing))
+    return key if key is not None and _declared[key] is thing else None
 
 
 def find(key: str) -> Any:

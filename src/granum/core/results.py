@@ -62,6 +62,8 @@ class Result:
     notices: one record per raised flag: what, how many, worst value, range, sentence.
     defaults: names of the inputs that were not given and took their default.
     origins: of inputs that a stated fluid gave, which it was.
+    beside: numbers that the calculation went through, such as a Reynolds number, with the range that a source
+        states for each.
     """
 
     card: Card
@@ -71,6 +73,7 @@ class Result:
     notices: list[dict[str, Any]] = field(default_factory=list)
     defaults: frozenset[str] = frozenset()
     origins: dict[str, str] = field(default_factory=dict)
+    beside: list[dict[str, Any]] = field(default_factory=list)
 
     @property
     def outputs(self) -> dict[str, Any]:
@@ -171,6 +174,7 @@ class Result:
                 for p in self.card.parameters
             },
             "outputs": {p.name: quantity_json(self.outputs[p.name], p) for p in self.card.outputs},
+            "beside": self.beside,
             "flags": self.notices,
             "source": self.card.source,
         } | rows

@@ -68,6 +68,26 @@ def reference(key: str) -> dict[str, str]:
     return {name: str(field.value) for name, field in decoded.fields_dict.items()}
 
 
+@cache
+def _named() -> dict[str, str]:
+    """Authors by key, read from the lines of the files: what a search needs, in a hundredth of the time."""
+    begins = re.compile(r"^@\w+\{([^,]+),", re.MULTILINE)
+    named = re.compile(r"\b(?:author|editor)\s*=\s*\{((?:[^{}]|\{[^{}]*\})*)\}", re.IGNORECASE)
+    found: dict[str, str] = {}
+    for text in _texts().values():
+        heads = list(begins.finditer(text))
+        ends = [*(head.start() for head in heads[1:]), len(text)]
+        for head, end in zip(heads, ends, strict=True):
+            line = named.search(text, head.end(), end)
+            found[head[1]] = re.sub(r"\\\W\s?|[{}]|\band\b|\b\w\.", " ", line[1]) if line else ""
+    return found
+
+
+def authors_of(source: str) -> str:
+    """The names in a source, without initials."""
+    return " ".join(_named().get(key, "") for key in keys_of(source))
+
+
 def keys_of(source: str) -> list[str]:
     """The bibliography keys in a source text: ``"ergun1952, eq. 3; macdonald1979, p. 2"`` has two."""
     return [part.strip().split(",", 1)[0].strip() for part in source.split(";") if part.strip()]

@@ -54,10 +54,13 @@ def index() -> str:
     text = io.StringIO()
     table = csv.DictWriter(text, [f.name for f in fields(Entry)], lineterminator="\n")
     table.writeheader()
-    with language("en"):
-        for thing in everything().values():
-            entry = thing.card.entry
-            table.writerow(asdict(entry) | {"english_title": entry.title})
+    for thing in everything().values():
+        entry = thing.card.entry
+        with language("en"):
+            written = {"english_title": entry.title}
+        with language("fr"):
+            written |= {"french_title": entry.title, "french_summary": entry.summary}
+        table.writerow(asdict(entry) | written)
     return text.getvalue()
 
 

@@ -2,7 +2,8 @@
 take a thousand times as long as the numbers.
 
 The program is JAX's own (``jax.make_jaxpr``). Its loops are the exception: one that has taken, or is bound to
-take, about as long as compiling it would is compiled by itself and called from then on.
+take, about as long as compiling it would is compiled by itself and called from then on. What was compiled
+once is compiled at once by the next process, when the program is kept for it (``granum.core.kept``).
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ from typing import Any, NamedTuple
 
 import jax
 import numpy as np
-from jax.extend.core import ClosedJaxpr, Literal
+from jax.extend.core import ClosedJaxpr
 
-from granum.core.operations import Step, operation
+from granum.core.operations import Step, of_numpy, operation
+from granum.core.traces import Operation, Reader, Trace
 
 Body = Callable[..., list[Any]]
 
@@ -34,19 +36,43 @@ CALL = 50.0
 _taken = threading.local()
 
 
+class Outgrown(Exception):
+    """A loop of a program that was kept needs the compiler, and what to compile was not kept with it."""
+
+
 class Program:
     """A traced program, ready to run on NumPy values; ``options`` of ``jax.jit`` for its compiled loops.
 
-    ``size`` counts its operations, each once; ``work`` guesses how many steps a run takes.
+    ``size`` counts its operations, each once; ``work`` guesses how many steps a run takes. A program that is
+    ``kept`` remembers how its loops are compiled: ``loops``, for the next process.
 
     >>> program = Program(jax.make_jaxpr(lambda x: 3.0 * x + 1.0)(2.0))
     >>> program.size, program.run([2.0])
     (2.0, ([np.float64(7.0)], 2.004))
     """
 
-    def __init__(self, closed: ClosedJaxpr, **options: Any):
-        self.size, self.work, self._body = _Maker(options).made(closed)
-        self._takes = [v.aval.dtype for v in closed.jaxpr.invars]
+    def __init__(
+        self,
+        program: ClosedJaxpr | Trace,
+        loops: Sequence[bytes | None] | None = None,
+        *,
+        kept: bool = False,
+        **options: Any,
+    ):
+        self.trace = program if isinstance(program, Trace) else Reader().read(program)
+        self._maker = _Maker(options, loops, kept)
+        self.size, self.work, self._body = self._maker.made(self.trace)
+        self._takes = [shaped.dtype for shaped in self.trace.given]
+
+    @property
+    def loops(self) -> list[bytes | None]:
+        """Of each loop, in the order of the program, what was compiled, as the compiler is given it."""
+        return [loop.written for loop in self._maker.loops]
+
+    @property
+    def lasts(self) -> bool:
+        """Whether it can be run by another process."""
+        return self._maker.lasts and not any(loop.is_lost for loop in self._maker.loops)
 
     def run(self, values: Sequence[Any]) -> tuple[list[Any], float]:
         """The results for a flat list of values, and the steps taken."""
@@ -70,8 +96,12 @@ class Made(NamedTuple):
 class _Maker:
     """Makes programs ready, each inner one once however often it is called."""
 
-    def __init__(self, options: dict[str, Any]) -> None:
+    def __init__(self, options: dict[str, Any], written: Sequence[bytes | None] | None, kept: bool) -> None:
         self.options = options
+        self.kept = kept
+        self.written = iter(written or ())
+        self.loops: list[_Loop] = []
+        self.lasts = True
         self.runs = 1.0  # guessed, of what is being made
         self._known: dict[int, Made] = {}
 
@@ -82,40 +112,33 @@ class _Maker:
         yield
         self.runs /= times
 
-    def made(self, closed: ClosedJaxpr) -> Made:
-        found = self._known.get(id(closed.jaxpr)) if not closed.consts else None
+    def made(self, trace: Trace) -> Made:
+        found = self._known.get(id(trace))
         if found is not None:
             return found._replace(size=1.0)
-        found = self._make(closed)
-        if not closed.consts:
-            self._known[id(closed.jaxpr)] = found
+        found = self._known[id(trace)] = self._make(trace)
         return found
 
-    def _make(self, closed: ClosedJaxpr) -> Made:
+    def step(self, op: Operation) -> Made:
+        """One operation."""
+        nested = NESTED.get(op.name)
+        if nested:
+            return nested(op, self)
+        step = of_numpy(op)
+        if step is None:
+            self.lasts = False
+            step = operation(op)
+        return Made(1.0, 0.0, step)
+
+    def _make(self, trace: Trace) -> Made:
         """Each value has a place in a list, each step knows its places."""
-        jaxpr, places, known = closed.jaxpr, {}, []
-
-        def place(atom: Any) -> int:
-            if isinstance(atom, Literal):
-                known.append(np.asarray(atom.val, atom.aval.dtype)[()])
-                return len(known) - 1
-            if atom not in places:
-                places[atom] = len(known)
-                known.append(None)
-            return places[atom]
-
-        for variable, constant in zip(jaxpr.constvars, closed.consts, strict=True):
-            known[place(variable)] = np.asarray(constant)[()]
-        inputs = [place(v) for v in jaxpr.invars]
+        known, inputs, outputs = trace.known, trace.takes, trace.gives
         steps, size, work, own = [], 0.0, 0.0, 0.0
-        for eqn in jaxpr.eqns:
-            weight = 1.0 + sum(v.aval.size for v in eqn.outvars) / ELEMENTS
-            nested = NESTED.get(eqn.primitive.name)
-            inside = nested(eqn, self) if nested else Made(1.0, 0.0, operation(eqn))
+        for op in trace.operations:
+            weight = 1.0 + sum(shaped.size for shaped in op.made) / ELEMENTS
+            inside = self.step(op)
             size, work, own = size + inside.size, work + inside.work + weight, own + weight
-            ins, outs = [place(v) for v in eqn.invars], [place(v) for v in eqn.outvars]
-            steps.append((inside.run, ins, outs, len(outs) == 1))
-        outputs = [place(v) for v in jaxpr.outvars]
+            steps.append((inside.run, op.ins, op.outs, len(op.outs) == 1))
 
         def run(*values: Any) -> list[Any]:
             _taken.steps += own
@@ -137,13 +160,16 @@ class _Maker:
 class _Loop:
     """A loop, and whether it is time to compile it."""
 
-    def __init__(self, eqn: Any, maker: _Maker, size: float, work: float):
-        self._eqn, self._options = eqn, maker.options
+    def __init__(self, op: Operation, maker: _Maker, size: float, work: float):
+        self._op, self._options, self._kept = op, maker.options, maker.kept
         self._left = RENT * (size + LEAST)
         self.size, self.work = size, work
+        self.written = next(maker.written, None)
+        self.is_lost = False
         self._compiled: Callable[..., Any] | None = None
-        if work * maker.runs > self._left:
+        if self.written is not None or work * maker.runs > self._left:
             self._left, self.work = 0.0, CALL
+        maker.loops.append(self)
 
     def is_due(self) -> bool:
         return self._left <= 0.0
@@ -156,33 +182,62 @@ class _Loop:
         _taken.steps += CALL
         with jax.ensure_compile_time_eval():
             if self._compiled is None:
-                bind, params = self._eqn.primitive.bind, self._eqn.params
-                self._compiled = jax.jit(lambda *given: bind(*given, **params), **self._options)
+                self._compiled = jax.jit(self._function(values), **self._options)
             found = [np.asarray(x)[()] for x in self._compiled(*values)]
         return _alone(found)
+
+    def _function(self, values: tuple[Any, ...]) -> Callable[..., Any]:
+        """What is compiled: through the form in which it is kept, so that the compiler's own cache knows it
+        again.
+        """
+        if self.written is not None:
+            from jax import export
+
+            return export.deserialize(bytearray(self.written)).call
+        if self._op.whole is None:
+            raise Outgrown
+        bind, params = self._op.whole.primitive.bind, self._op.whole.params
+
+        def plain(*given: Any) -> Any:
+            return bind(*given, **params)
+
+        if not self._kept:
+            return plain
+        from jax import export
+
+        try:
+            exported = export.export(jax.jit(plain))(*values)
+            self.written = bytes(exported.serialize())
+            return exported.call
+        except (
+            ValueError,
+            NotImplementedError,
+            ImportError,
+        ):  # it calls what is not the same in every version
+            self.is_lost = True
+            return plain
 
 
 def _alone(found: list[Any]) -> Any:
     return found[0] if len(found) == 1 else found
 
 
-def _called(name: str) -> Callable[[Any, _Maker], Made]:
-    def made(eqn: Any, maker: _Maker) -> Made:
-        inner = eqn.params[name]
-        body = maker.made(inner if isinstance(inner, ClosedJaxpr) else ClosedJaxpr(inner, ()))
+def _called(name: str) -> Callable[[Operation, _Maker], Made]:
+    def made(op: Operation, maker: _Maker) -> Made:
+        body = maker.made(op.params[name])
         run = body.run
         return body._replace(run=lambda *values: _alone(run(*values)))
 
     return made
 
 
-def _while(eqn: Any, maker: _Maker) -> Made:
-    params = eqn.params
+def _while(op: Operation, maker: _Maker) -> Made:
+    params = op.params
     with maker.repeated(PASSES):
         judge, body = maker.made(params["cond_jaxpr"]), maker.made(params["body_jaxpr"])
-    loop = _Loop(eqn, maker, judge.size + body.size, PASSES * (judge.work + body.work))
+    loop = _Loop(op, maker, judge.size + body.size, PASSES * (judge.work + body.work))
     first, second = params["cond_nconsts"], params["cond_nconsts"] + params["body_nconsts"]
-    several = bool(params["cond_jaxpr"].jaxpr.outvars[0].aval.shape)
+    several = bool(params["cond_jaxpr"].made[0].shape)
 
     def step(*values: Any) -> Any:
         judged_by, made_of, carry = values[:first], values[first:second], list(values[second:])
@@ -204,8 +259,8 @@ def _stay(goes_on: Any) -> Step:
     return lambda new, old: np.where(np.reshape(goes_on, shape + (1,) * (new.ndim - len(shape))), new, old)
 
 
-def _cond(eqn: Any, maker: _Maker) -> Made:
-    branches = [maker.made(branch) for branch in eqn.params["branches"]]
+def _cond(op: Operation, maker: _Maker) -> Made:
+    branches = [maker.made(branch) for branch in op.params["branches"]]
 
     def step(which: Any, *values: Any) -> Any:
         return _alone(branches[min(max(int(which), 0), len(branches) - 1)].run(*values))
@@ -213,14 +268,14 @@ def _cond(eqn: Any, maker: _Maker) -> Made:
     return Made(sum(b.size for b in branches), max(b.work for b in branches), step)
 
 
-def _scan(eqn: Any, maker: _Maker) -> Made:
-    params = eqn.params
+def _scan(op: Operation, maker: _Maker) -> Made:
+    params = op.params
     length, carried = params["length"], params["num_carry"]
     with maker.repeated(length):
         body = maker.made(params["jaxpr"])
-    loop = _Loop(eqn, maker, body.size, length * body.work)
+    loop = _Loop(op, maker, body.size, length * body.work)
     first, second = params["num_consts"], params["num_consts"] + carried
-    shapes = [(v.aval.shape, v.aval.dtype) for v in params["jaxpr"].jaxpr.outvars[carried:]]
+    shapes = params["jaxpr"].made[carried:]
 
     def step(*values: Any) -> Any:
         if loop.is_due():
@@ -239,18 +294,18 @@ def _scan(eqn: Any, maker: _Maker) -> Made:
     return Made(loop.size, loop.work, step)
 
 
-def _linear_solve(eqn: Any, maker: _Maker) -> Made:
-    body, counts = maker.made(eqn.params["jaxprs"].solve), eqn.params["const_lengths"]
-    before = counts.matvec + counts.vecmat
-    after = before + counts.solve + counts.transpose_solve
+def _linear_solve(op: Operation, maker: _Maker) -> Made:
+    params = op.params
+    body, before, after = maker.made(params["solve"]), params["before"], params["after"]
+    constants = slice(before, before + params["constants"])
 
     def step(*values: Any) -> Any:
-        return _alone(body.run(*values[before : before + counts.solve], *values[after:]))
+        return _alone(body.run(*values[constants], *values[after:]))
 
     return body._replace(run=step)
 
 
-NESTED: dict[str, Callable[[Any, _Maker], Made]] = {
+NESTED: dict[str, Callable[[Operation, _Maker], Made]] = {
     "jit": _called("jaxpr"),
     "pjit": _called("jaxpr"),
     "closed_call": _called("call_jaxpr"),

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import os
 import re
+from collections.abc import Iterable
 from contextvars import ContextVar
 from functools import cache
 from typing import Any
@@ -235,6 +236,10 @@ def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
 
 _PRETTY = {
     "um": "µm",
+    "us": "µs",
+    "ug": "µg",
+    "uN": "µN",
+    "uPa": "µPa",
     "degC": "°C",
     "degF": "°F",
     "percent": "%",
@@ -352,14 +357,26 @@ def best_unit(value: float, kind: Kind) -> str:
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
-    # from 1 m/s on nobody writes mm/s
-    if 0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000):
+    if 0.1 <= sizes[units[0]] < most_of(units[0], units):
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:
             if low <= sizes[unit] < high:
                 return unit
-    return min(units, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
+    # far from any of them, nobody counts in percent
+    far = [u for u in units if u != "percent"] or units
+    return min(far, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
+
+
+def most_of(unit: str, offered: Iterable[str]) -> float:
+    """The number from which a unit gives way to a larger one: from 1 m/s on nobody writes mm/s.
+
+    >>> most_of("mm/s", ("mm/s", "m/s")), most_of("kJ/kg", ("kJ/kg", "kcal/kg"))
+    (1000.0, 10000.0)
+    """
+    small = re.match(r"[umn](?=(m|s|g|L|N|Pa)\b)", unit)
+    larger = {unit[1:], "m" + unit[1:], "k" + unit[1:]} if small else set()
+    return 1e3 if larger & set(offered) - {unit} else 1e4
 
 
 def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
@@ -380,16 +397,19 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
         usual
         and not field_units(kind)
         and same_dimension(usual, kind.unit)
-        and (not middle or 0.05 <= abs(from_si(middle, usual, kind)) < 1e4)
+        and (not middle or 0.1 <= abs(from_si(middle, usual, kind)) < most_of(usual, kind.units))
     ):
         return usual
     return best_unit(middle, kind)
 
 
 def format_number(value: float, digits: int = 4) -> str:
-    """A number with a few significant figures, ``1.07 × 10⁸`` beyond five digits, decimal comma in French."""
-    from granum.core.i18n import current_language
+    """A number with a few significant figures: ``1.07 × 10⁸`` beyond five digits, ten thousands and more set
+    apart by a thin space, the minus sign of print, decimal comma in French.
 
+    >>> format_number(-0.5), format_number(40533.0).replace("\u202f", " ")
+    ('−0.5', '40 533')
+    """
     if not np.isfinite(value):
         return "—"
     if value == 0.0:
@@ -398,12 +418,27 @@ def format_number(value: float, digits: int = 4) -> str:
     if -4 <= exponent < 5:
         decimals = max(digits - 1 - exponent, 0)
         text = f"{value:.{decimals}f}"
-        if "." in text:
-            text = text.rstrip("0").rstrip(".")
+        whole, point, rest = text.partition(".")
+        if exponent == 4:
+            whole = f"{whole[:-3]}\u202f{whole[-3:]}"
+        text = f"{whole}{point}{rest}".rstrip("0").rstrip(".") if point else whole
     else:
         mantissa, _e, power = f"{value:.{digits - 1}e}".partition("e")
         mantissa, exponent = mantissa.rstrip("0").rstrip("."), int(power)
-        text = f"{mantissa} × 10{str(exponent).translate(_SUPERSCRIPT)}"
+        text = f"{mantissa} {ten_to(exponent)}"
+    return decimal(text)
+
+
+def ten_to(power: int) -> str:
+    """``× 10⁸``."""
+    return f"× 10{str(power).translate(_SUPERSCRIPT)}"
+
+
+def decimal(text: str) -> str:
+    """The text of a number with the decimal mark of the current language."""
+    from granum.core.i18n import current_language
+
+    text = text.replace("-", "\u2212")
     return text.replace(".", ",") if current_language() == "fr" else text
 
 

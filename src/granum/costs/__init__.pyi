@@ -9,6 +9,10 @@ from granum.costs.formulas.economics import (
     material_cost_rate as material_cost_rate,
     payback_time as payback_time,
 )
+from granum.costs.formulas.emissions import (
+    emission_factor as emission_factor,
+    greenhouse_gas_rate as greenhouse_gas_rate,
+)
 from granum.costs.formulas.purchase import (
     EquipmentCost as EquipmentCost,
     equipment_cost_by_area as equipment_cost_by_area,
@@ -23,4 +27,5 @@ from granum.costs.formulas.purchase import (
 )
 from granum.costs.tables import (
     Correlation as Correlation,
+    Emission as Emission,
 )

@@ -33,6 +33,29 @@ def correlations() -> dict[str, Correlation]:
     }
 
 
+class Emission(NamedTuple):
+    """Greenhouse gas per energy of a carrier itself, kg/J, and the electricity that goes with it, J/J."""
+
+    factor: float
+    electricity: float
+    year: int
+    source: str
+
+
+@cache
+def emissions() -> dict[str, Emission]:
+    """Emission factors by carrier."""
+    return {
+        str(row["carrier"]): Emission(
+            float(np.nan_to_num(row["emission_factor"])),
+            float(np.nan_to_num(row["electricity"])),
+            int(row["year"]),
+            str(row["source"]),
+        )
+        for row in dataset("costs", "emissions_epa2022")
+    }
+
+
 def plant_cost_index() -> tuple[np.ndarray, np.ndarray]:
     """Years and annual averages of the plant cost index."""
     found = columns("costs", "cepci_chemicalengineering")

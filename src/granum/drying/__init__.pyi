@@ -211,6 +211,7 @@ from granum.drying.formulas.moisture_ratios import (
 from granum.drying.formulas.rotary import (
     residence_time_friedman_marshall as residence_time_friedman_marshall,
     residence_time_saeman_mitchell as residence_time_saeman_mitchell,
+    shaft_power_rotary_drum as shaft_power_rotary_drum,
     volumetric_heat_transfer_rotary as volumetric_heat_transfer_rotary,
 )
 from granum.drying.formulas.storage import (

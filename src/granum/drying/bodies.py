@@ -152,7 +152,11 @@ def _integrated(start: tuple[Any, Any], times: Any, body: Body) -> tuple[Any, tu
     return found.converged, (mean, X[:, 0], X[:, -1], T[:, 0], T[:, -1], flux, radius)
 
 
-@procedure(source="keey1978; crank1975; mayor2004", title="Drying of a body, heat and moisture coupled")
+@procedure(
+    source="keey1978; crank1975; mayor2004",
+    title="Drying of a body, heat and moisture coupled",
+    typical={"diffusivity_preexponential": (1e-10, 1e-8)},
+)
 def body_drying(
     time: _Times,
     half_thickness: Length,

@@ -47,6 +47,16 @@ def drying_profile_chart(
 ) -> Any:
     """Moisture of the solid, and temperatures of solid and gas, along the way of the solid through a dryer
     from 0 to 1.
+
+    >>> len(
+    ...     drying_profile_chart(
+    ...         place=[0.0, 0.25, 0.5, 0.75, 1.0],
+    ...         moisture_dry_basis=[0.4, 0.31, 0.22, 0.13, 0.06],
+    ...         temperature="25 38 40 44 62 degC",
+    ...         temperature_gas="140 112 94 82 74 degC",
+    ...     ).data
+    ... )
+    3
     """
     from granum.core.charts import GAS, LIQUID, SOLID, add_line, axis_title
 

@@ -189,8 +189,17 @@ class LabTest(eqx.Module):
             )
 
     def chart(self) -> go.Figure:
-        """The points, hollow where excluded, with the fitted line and its 95 % band."""
-        from granum.core.charts import add_band, add_line, add_points, axis_title, figure
+        """The points, hollow where excluded, with the fitted line and its 95 % band; residuals under
+        them.
+        """
+        from granum.core.charts import (
+            add_band,
+            add_line,
+            add_points,
+            add_residuals,
+            axis_title,
+            figure,
+        )
         from granum.core.kinds import kind_of
         from granum.core.units import best_unit, from_si
 
@@ -212,6 +221,7 @@ class LabTest(eqx.Module):
         add_points(drawing, across(x[kept]), upward(y[kept]), _("data"))
         if not kept.all():
             add_points(drawing, across(x[~kept]), upward(y[~kept]), _("excluded"), hollow=True)
+        add_residuals(drawing, across(x), upward(found.residuals) - upward(0.0), kept, unit)
         return drawing
 
 

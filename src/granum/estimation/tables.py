@@ -7,6 +7,7 @@ from __future__ import annotations
 import csv
 import io
 import re
+import unicodedata
 from collections.abc import Iterable
 from itertools import islice
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from granum.core.errors import InputError, nearest
+from granum.core.errors import InputError, nearest, reason_of
 from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
@@ -72,6 +73,8 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
             )
     found: dict[str, np.ndarray] = {}
     columns = list(columns)
+    for alias, name in _named_otherwise(columns, places).items():
+        places[name], units[name] = places.pop(alias), units.pop(alias)
     asked = [places[p.name] for p in columns if p.name in places]
     texts = [row[k] for _line, row in body for k in asked if k < len(row) and isinstance(row[k], str)]
     marks = {mark for mark in ",." if any(_DECIMAL[mark].fullmatch(text) for text in texts)}
@@ -94,6 +97,30 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
         cells = [(line, row[place] if place < len(row) else None) for line, row in body]
         _no_thousands(p, cells, marks, sure, where)
         found[p.name] = _column(p, units[p.name], cells, where)
+    return found
+
+
+def heading_names(p: Parameter) -> tuple[str, ...]:
+    """What a column may be called: its name, and its labels of the glossary in both languages."""
+    words = (p.name, *((p.term.en, p.term.fr) if p.term else ()))
+    return tuple(dict.fromkeys(_bare(word) for word in words))
+
+
+def _bare(text: str) -> str:
+    """Without accents, apostrophes and case, words joined as in a name."""
+    parts = unicodedata.normalize("NFD", text.lower())
+    plain = "".join(c for c in parts if not unicodedata.combining(c))
+    return re.sub(r"[\s\-'’]+", "_", plain)
+
+
+def _named_otherwise(columns: list[Parameter], places: Iterable[str]) -> dict[str, str]:
+    """Headings that are labels of the glossary, with the columns that they mean."""
+    known = {p.name for p in columns}
+    found: dict[str, str] = {}
+    for heading in places:
+        meant = [p.name for p in columns if _bare(heading) in heading_names(p)]
+        if heading not in known and len(meant) == 1 and meant[0] not in (*places, *found.values()):
+            found[heading] = meant[0]
     return found
 
 
@@ -276,7 +303,7 @@ def _bytes(source: Source, where: str) -> bytes:
         raise InputError(message, name=str(source), did_you_mean=close) from None
     except OSError as problem:
         raise InputError(
-            _("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem.strerror)
+            _("The data file cannot be read{where}: {reason}.").format(where=where, reason=reason_of(problem))
         ) from None
 
 

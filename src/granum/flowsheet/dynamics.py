@@ -271,7 +271,7 @@ def _instant(
                 states[name], outlets = thing.advance(
                     before.states[name], earlier, inlets, step, prepared[name]
                 )
-            return Operated(outlets, None, (), None, told_here)
+            return Operated(outlets, None, (), None, told_here, {})
 
         return _Step(pass_through(line, block, known, operate), states)
 

@@ -313,7 +313,7 @@ def _of_balance(line: Flowsheet, found: Findings, unit: str) -> Iterator[Fault]:
 def _figures(line: Flowsheet, solution: Solution, unit: str) -> Iterator[tuple[Parameter, Kind, Any]]:
     """The quantities on the data sheet of a unit, where sheets were asked for."""
     if unit in solution.sheets and hasattr(type(line.units[unit]), "card"):
-        values, _checks = solution.sheets[unit]
+        values = solution.sheets[unit].figures
         for p, value in zip(type(line.units[unit]).card.outputs, values, strict=True):
             if value is not None and p.kind is not None:
                 yield p, p.kind, value

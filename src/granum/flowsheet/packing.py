@@ -18,6 +18,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core.compiling import begun
+from granum.core.kept import Slot, is_slot
 
 _PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}
 
@@ -50,14 +51,17 @@ def _built(function: Callable[..., Any], tree: Any, others: tuple[Any, ...]) -> 
         arguments = jax.tree.unflatten(tree, [next(given) if other is None else other for other in others])
         leaves, out = jax.tree.flatten(function(*arguments))
         arrays = [jnp.asarray(leaf) for leaf in leaves if isinstance(leaf, jax.Array | np.ndarray)]
-        shape[:] = [
-            out,
-            [None if isinstance(leaf, jax.Array | np.ndarray) else leaf for leaf in leaves],
-            [(a.shape, a.dtype) for a in arrays],
-        ]
+        slots = [Slot() if isinstance(leaf, jax.Array | np.ndarray) else leaf for leaf in leaves]
+        shape[:] = [jax.tree.unflatten(out, slots), [(a.shape, a.dtype) for a in arrays]]
         return jnp.concatenate([jnp.ravel(a).astype(float) for a in arrays])
 
-    quick = begun(flat, compiler_options=_PLAIN if jax.default_backend() == "cpu" else None)
+    fixed = jax.tree.unflatten(tree, [Slot() if other is None else other for other in others])
+    quick = begun(
+        flat,
+        (function.__module__, function.__qualname__, fixed),
+        shape,
+        compiler_options=_PLAIN if jax.default_backend() == "cpu" else None,
+    )
 
     def call(numbers: list[Any]) -> Any:
         nonlocal quick
@@ -68,11 +72,12 @@ def _built(function: Callable[..., Any], tree: Any, others: tuple[Any, ...]) -> 
                 raise
             quick = jax.jit(flat)  # a compiler that does not know these options
             packed = np.asarray(quick(numbers))
-        out, rest, kinds = shape
+        made, kinds = shape
+        leaves, out = jax.tree.flatten(made, is_leaf=is_slot)
         parts = iter(np.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1]))
         arrays = iter(
             [part.reshape(size).astype(kind)[()] for part, (size, kind) in zip(parts, kinds, strict=True)]
         )
-        return jax.tree.unflatten(out, [next(arrays) if leaf is None else leaf for leaf in rest])
+        return jax.tree.unflatten(out, [next(arrays) if is_slot(x) else x for x in leaves])
 
     return call

@@ -18,7 +18,7 @@ from granum.core.notices import describe
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Operated
+from granum.streams.units import Operated, Sheet
 
 
 class Made(NamedTuple):
@@ -29,7 +29,7 @@ class Made(NamedTuple):
     streams: dict[str, Stream]
     powers: dict[str, dict[str, Any]]
     records: dict[str, list[flags.Record]]
-    sheets: dict[str, tuple[Any, tuple[Check, ...]]]
+    sheets: dict[str, Sheet]
 
 
 @contextmanager
@@ -88,7 +88,7 @@ def pass_through(
         }
         made.records[unit] = found.records
         if found.figures is not None:
-            made.sheets[unit] = (found.figures, found.checks)
+            made.sheets[unit] = Sheet(found.figures, found.checks, found.uses)
         known |= {
             name: s if instead is None else known_or(s, instead)
             for name, s in new.items()

@@ -20,6 +20,8 @@ from granum.core.formulas import Result
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
+from granum.core.utilities import carrier
+from granum.costs.formulas.emissions import CARRIERS
 from granum.estimation.results import Fit
 from granum.flowsheet.drawing import draw
 from granum.flowsheet.dynamics import Course, Profile, march
@@ -33,6 +35,16 @@ from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution
 from granum.flowsheet.specifications import Target
+from granum.flowsheet.utilities import (
+    FIGURES,
+    WATER,
+    Totals,
+    by_carrier,
+    cost_rate,
+    counted,
+    main_product,
+    totals,
+)
 from granum.flowsheet.watching import Watch
 from granum.streams.stream import Stream, median_size
 from granum.streams.units import Check, Operated
@@ -141,16 +153,24 @@ class Line:
 
 @dataclass(frozen=True)
 class UnitReport:
-    """One unit of a solved line: model, figures, checks."""
+    """One unit of a solved line: model, figures, checks, what it takes of each utility, and which of these
+    the line counts.
+    """
 
     name: str
     model: Any
     values: Any
     checks: tuple[Check, ...]
+    uses: Mapping[str, Any]
+    counted: tuple[str, ...]
 
     def figures(self) -> Iterator[tuple[Parameter, Any]]:
         """Each figure with its declaration."""
         yield from zip(self.model.card.outputs, self.values, strict=True)
+
+    def utilities(self) -> Iterator[tuple[Parameter, Any]]:
+        """Each utility with its declaration."""
+        yield from ((use.parameter, self.uses[use.parameter.name]) for use in self.model.card.utilities)
 
     def parameters(self) -> Iterator[tuple[Parameter, Any]]:
         """Each parameter of the unit with its value."""
@@ -162,6 +182,11 @@ class UnitReport:
         return {
             "model": self.model.card.key,
             "results": {p.name: quantity_json(value, p) for p, value in self.figures()},
+            "utilities": {
+                p.name: quantity_json(value, p)
+                | {"carrier": carrier(p.name), "counted": p.name in self.counted}
+                for p, value in self.utilities()
+            },
             "checks": [
                 {
                     "name": _(c.name),
@@ -199,11 +224,51 @@ class Run:
 
     @cached_property
     def units(self) -> dict[str, UnitReport]:
-        """Every unit's figures and checks."""
+        """Every unit's figures, checks and utilities."""
+        counts = counted(self.sheet)
         return {
-            name: UnitReport(name, self.sheet.units[name], *self.solution.sheets[name])
+            name: UnitReport(name, self.sheet.units[name], *self.solution.sheets[name], counts[name])
             for name in self.sheet.order
         }
+
+    @cached_property
+    def utilities(self) -> Totals:
+        """What the line takes in all: power, heat and cold, energy per product and per water removed,
+        greenhouse gas.
+        """
+        sheets = self.solution.sheets
+        found = totals(
+            self.sheet,
+            {name: sheets[name].uses for name in self.sheet.order},
+            {name: sheets[name].figures for name in self.sheet.order},
+            self.streams,
+        )
+        return Totals(*(float(x) for x in found))
+
+    @cached_property
+    def carriers(self) -> dict[str, float]:
+        """What the line takes of every carrier (W) and material (kg/s)."""
+        uses = {name: self.solution.sheets[name].uses for name in self.sheet.order}
+        return {name: float(x) for name, x in by_carrier(self.sheet, uses).items()}
+
+    def utility_cost(self, prices: Mapping[str, Any]) -> float:
+        """What the line pays for its utilities, USD/s, at prices by carrier.
+
+        As in ``{"electricity": "0.10 USD/kWh", "low_pressure_steam": "30 USD/MWh"}``; a material, such as
+        ``filter_aid``, has one per mass, hot gas one where it comes from outside.
+        """
+        return cost_rate(self.carriers, prices)
+
+    @property
+    def product(self) -> str:
+        """Name of the main product: the stream leaving with most solid, without solid that with most mass."""
+        return main_product(self.sheet, self.streams)
+
+    def totals(self) -> Iterator[tuple[Parameter, float]]:
+        """The line's totals with their declaration; those per water only where water is removed."""
+        for p in FIGURES.values():
+            if p.name not in WATER or self.utilities.evaporation_rate > 0.0:
+                yield p, getattr(self.utilities, p.name)
 
     @cached_property
     def _written(self) -> dict[str, tuple[tuple[Result, ...], Operated]]:
@@ -279,6 +344,14 @@ class Run:
             "title": self.title,
             "streams": {name: stream_json(s) for name, s in self.streams.items()},
             "units": {name: report.as_json() for name, report in self.units.items()},
+            "utilities": {
+                "product": self.product,
+                "carriers": {
+                    name: {"value": value, "unit": "W" if name in CARRIERS else "kg/s"}
+                    for name, value in self.carriers.items()
+                },
+                **{p.name: quantity_json(value, p) for p, value in self.totals()},
+            },
             "specifications": {name: plain(value) for name, value in self.found.items()},
             "audit": {
                 **{side: plain(self.audit[side]) for side in ("mass_closure", "energy_closure")},
@@ -307,7 +380,9 @@ class Run:
         units as attributes.
         """
         figures = {
-            f"{name}.{p.name}": (p, value) for name, unit in self.units.items() for p, value in unit.figures()
+            f"{name}.{p.name}": (p, value)
+            for name, unit in self.units.items()
+            for p, value in (*unit.figures(), *unit.utilities())
         }
         return stream_dataset(self.streams).assign(
             {

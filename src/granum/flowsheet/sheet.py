@@ -121,7 +121,7 @@ class Flowsheet(eqx.Module):
                     )
                 )
         for name in self.feeds:
-            if name not in names:
+            if name not in names or not self.link(name).target:
                 raise CaseError(_("Feed '{feed}' goes nowhere: name the unit it enters.").format(feed=name))
         entered = {k.target for k in self.links}
         for unit, thing in self.units.items():

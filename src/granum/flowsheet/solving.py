@@ -24,7 +24,7 @@ from granum.streams import audit
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
-from granum.streams.units import Check, Operated
+from granum.streams.units import Operated, Sheet
 
 TEMPERATURE_SCALE = 100.0  # K: brings the temperature of a torn stream to the size of the scaled flows
 TOLERANCE = 1e-12
@@ -42,7 +42,7 @@ class Solution(NamedTuple):
     converged: whether every loop converged (True without loops).
     steps: iterations of each loop. residual: largest scaled change of a torn stream in each loop.
     records: what each unit's formulas flagged at the solution.
-    sheets: figures and checks of each unit, when asked for.
+    sheets: figures, checks and utilities of each unit, when asked for.
     met: whether what was wanted was found as well. sought: the parameters found, each within 0 … 1.
     known: all that the solver of each loop knows, to go on from there.
     """
@@ -53,7 +53,7 @@ class Solution(NamedTuple):
     steps: tuple[Any, ...]
     residual: tuple[Any, ...]
     records: dict[str, list[flags.Record]]
-    sheets: dict[str, tuple[Any, tuple[Check, ...]]]
+    sheets: dict[str, Sheet]
     met: Any = True
     sought: Any = None
     known: tuple[Any, ...] = ()

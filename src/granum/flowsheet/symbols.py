@@ -26,43 +26,64 @@ SYMBOLS: dict[str, str] = {
     "settler": '<path d="M4 16 h52 v22 l-10 10 h-42 z"/><path d="M4 22 h52" fill="none" stroke-dasharray="3 3"/>',  # noqa: E501
     "fluidized_bed": '<path d="M14 8 h32 v44 h-32 z"/><path d="M14 40 h32" fill="none" stroke-dasharray="3 2"/>'  # noqa: E501
     '<circle cx="24" cy="30" r="2"/><circle cx="33" cy="24" r="2"/><circle cx="37" cy="33" r="2"/>',
+    "vessel": _VESSEL + '<path d="M30 4 v30 M20 34 h20" fill="none"/>',
+    "burner": _BOX
+    + '<path d="M30 44 q-12 -8 -2 -18 q2 6 5 4 q2 -6 -1 -10 q14 8 8 18 q-2 5 -10 6 z" fill="none"/>',
+    "humidifier": '<path d="M14 10 h32 v40 h-32 z"/><path d="M20 18 l4 8 M30 18 v8 M40 18 l-4 8 M20 32 l4 8 M30 32 v8 M40 32 l-4 8" fill="none"/>',  # noqa: E501
     "fan": '<circle cx="30" cy="30" r="20"/><path d="M16 16 L48 24 M16 44 L48 36" fill="none"/>',
 }
 
-# which words of a model name lead to which symbol; the first that fits wins
+# which words of a model key lead to which symbol; the first that fits wins
 _WORDS = (
+    ("centrifuges.", "centrifuge"),
     ("hydrocyclone", "hydrocyclone"),
-    ("cyclone", "cyclone"),
-    ("msmpr", "crystallizer"),
-    ("crystalli", "crystallizer"),
-    ("drum_filter", "drum_filter"),
-    ("press", "filter"),
-    ("filter", "filter"),
-    ("nutsche", "filter"),
+    ("gas_cyclone", "cyclone"),
+    ("crystallization.", "crystallizer"),
+    ("drying.burner", "burner"),
+    ("drying.", "dryer"),
+    ("drum", "drum_filter"),
+    ("filtration.", "filter"),
     ("thickener", "thickener"),
     ("clarifier", "thickener"),
-    ("settler", "settler"),
-    ("separator", "settler"),
-    ("lamella", "settler"),
-    ("centrifuge", "centrifuge"),
-    ("decanter", "centrifuge"),
-    ("dryer", "dryer"),
-    ("oven", "dryer"),
+    ("settling.", "settler"),
     ("screen", "screen"),
     ("crusher", "crusher"),
     ("mill", "mill"),
-    ("bed", "fluidized_bed"),
+    ("fluidization.", "fluidized_bed"),
+    ("humidifier", "humidifier"),
     ("heater", "heater"),
     ("cooler", "heater"),
+    ("coil", "heater"),
     ("fan", "fan"),
     ("mixer", "mixer"),
     ("splitter", "splitter"),
+    ("tank", "vessel"),
+    ("agglomerator", "vessel"),
 )
+
+
+def _named(model: str) -> str:
+    return next((symbol for word, symbol in _WORDS if word in model), "")
 
 
 def symbol_of(model: str) -> str:
     """The inner SVG of the symbol for a model key such as ``filtration.drum_filter``; a plain box when none
     fits.
     """
-    name = model.rpartition(".")[2]
-    return next((SYMBOLS[symbol] for word, symbol in _WORDS if word in name), _BOX)
+    return SYMBOLS.get(_named(model), _BOX)
+
+
+def word_of(model: str) -> str:
+    """One word for a piece of equipment, which names it in a line.
+
+    >>> word_of("filtration.horizontal_belt_filter"), word_of("streams.stirred_tank")
+    ('filter', 'vessel')
+    """
+    return (
+        _SHORT.get(_named(model))
+        or _named(model).replace("_", " ")
+        or model.rpartition(".")[2].replace("_", " ")
+    )
+
+
+_SHORT = {"drum_filter": "filter"}

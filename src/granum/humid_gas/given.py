@@ -15,18 +15,18 @@ NAMES = ("temperature", *MOISTURE, "relative_humidity", *WET, "enthalpy", "speci
 def check_pair_of_inputs(given: dict[str, Any]) -> None:
     """One clear error when the state is not fixed by exactly two independent properties."""
     names = list(given)
-    listed = ", ".join(NAMES)
+    listed = ", ".join(f"'{name}'" for name in NAMES)
     if len(names) != 2:
         raise InputError(
             _("A humid-gas state needs exactly two of {allowed}; given: {names}.").format(
-                allowed=listed, names=", ".join(names) or _("none")
+                allowed=listed, names=", ".join(f"'{name}'" for name in names) or _("none")
             ),
             given=names,
         )
     if all(name in MOISTURE for name in names):
         raise InputError(
             _(
-                "{first} and {second} say the same thing at a given pressure; give one of them and "
+                "'{first}' and '{second}' say the same thing at a given pressure; give one of them and "
                 "another property."
             ).format(first=names[0], second=names[1]),
             given=names,
@@ -34,7 +34,7 @@ def check_pair_of_inputs(given: dict[str, Any]) -> None:
     if all(name in WET for name in names):
         raise InputError(
             _(
-                "{first} and {second} nearly coincide and do not fix the state; give one of them and "
+                "'{first}' and '{second}' nearly coincide and do not fix the state; give one of them and "
                 "another property."
             ).format(first=names[0], second=names[1]),
             given=names,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from math import inf, isnan, nan
 from typing import Any
 
@@ -175,7 +175,7 @@ def _constant(function: Any, *values: Any) -> float:
     if isinstance(function, Missing):
         return nan
     with flags.collect():  # flags of the build are nobody's inputs
-        return float(once(lambda: function(*values)))
+        return float(once(partial(function, *values)))
 
 
 def salt_of(key: str, entry: SaltEntry) -> Salt:
@@ -229,10 +229,13 @@ def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid, c
         _masses=(molar_mass, solvent.molar_mass),
         _ends=(0.0, 0.0),
     )
-    ends = tuple(
-        _constant(jax.grad(lambda u: jnp.log(branch.inside(1.0 / u))), 1.0 / end) for end in entry.range
-    )
+    ends = tuple(_constant(_slope, branch, 1.0 / end) for end in entry.range)
     return replace(branch, _ends=ends, misfit=_constant(_misfit, branch, entry.table))
+
+
+def _slope(branch: Branch, inverse_temperature: float) -> Any:
+    """Of the logarithm of solubility over 1/T."""
+    return jax.grad(lambda u: jnp.log(branch.inside(1.0 / u)))(inverse_temperature)
 
 
 def _printed(table: list[tuple[float, float]]) -> tuple[np.ndarray, np.ndarray]:
@@ -294,26 +297,31 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
 
 def _with_enthalpies(system: SoluteSystem) -> SoluteSystem:
     """The system with the constants that put solution and crystals on one enthalpy scale."""
-
     if isinstance(system.heat_capacity_law, NoLaw):
         return system
-
-    def apparent() -> Any:
-        ratio = system.solubility(REFERENCE)
-        whole = system.solution_heat_capacity(REFERENCE, ratio)
-        return ((1.0 + ratio) * whole - system.solvent.liquid_heat_capacity.value(REFERENCE)) / ratio
-
-    system = replace(system, solute_heat_capacity=_constant(apparent))
-
-    def formed(b: Branch) -> float:
-        if isinstance(b.crystal.heat_capacity, Missing):
-            return nan
-        dissolved = system.solute_enthalpy(REFERENCE) + b.solvent_ratio * system.solvent.liquid_enthalpy(
-            REFERENCE
-        )
-        return (dissolved - b.heat_of_crystallization) / b.hydrate_ratio - b.crystal.enthalpy(REFERENCE)
-
+    system = replace(system, solute_heat_capacity=_constant(_apparent_heat, system))
+    formed = (
+        nan if isinstance(b.crystal.heat_capacity, Missing) else _constant(_formed, system, b)
+        for b in system.branches
+    )
     return replace(
         system,
-        branches=tuple(replace(b, enthalpy_of_formation=_constant(formed, b)) for b in system.branches),
+        branches=tuple(
+            replace(b, enthalpy_of_formation=h) for b, h in zip(system.branches, formed, strict=True)
+        ),
     )
+
+
+def _apparent_heat(system: SoluteSystem) -> Any:
+    """What the solute adds to the heat capacity of its saturated solution."""
+    ratio = system.solubility(REFERENCE)
+    whole = system.solution_heat_capacity(REFERENCE, ratio)
+    return ((1.0 + ratio) * whole - system.solvent.liquid_heat_capacity.value(REFERENCE)) / ratio
+
+
+def _formed(system: SoluteSystem, b: Branch) -> Any:
+    """Enthalpy of formation of a crystal from what it dissolves to."""
+    dissolved = system.solute_enthalpy(REFERENCE) + b.solvent_ratio * system.solvent.liquid_enthalpy(
+        REFERENCE
+    )
+    return (dissolved - b.heat_of_crystallization) / b.hydrate_ratio - b.crystal.enthalpy(REFERENCE)

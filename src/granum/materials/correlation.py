@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
+from granum.core.compiling import once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.conversion import convert
 from granum.core.errors import ApplicabilityError
@@ -82,9 +83,7 @@ class Correlation(eqx.Module):
         # Chebyshev nodes: near-minimax error
         nodes = np.cos(np.pi * (np.arange(4 * degree + 8) + 0.5) / (4 * degree + 8))
         T = ends.mean() + 0.5 * (ends[1] - ends[0]) * nodes
-        fitted = np.polynomial.Polynomial.fit(
-            T - ZERO_CELSIUS, np.asarray(self.value(jnp.asarray(T))), degree
-        )
+        fitted = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(once(self.value, T)), degree)
         return tuple(float(c) for c in fitted.convert().coef)
 
 

@@ -22,8 +22,8 @@ from pathlib import Path
 from typing import Any
 
 from granum.core.documents import read_toml
-from granum.core.errors import InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.errors import InputError, reason_of, unknown_name
+from granum.core.i18n import _, current_language
 from granum.materials.building import fluid_of, salt_of, solid_of, solute_of
 from granum.materials.fluids import Fluid
 from granum.materials.salts import Salt
@@ -57,7 +57,7 @@ class _File:
         except OSError as problem:
             raise InputError(
                 _("Materials file {file} cannot be read: {reason}.").format(
-                    file=path, reason=problem.strerror
+                    file=path, reason=reason_of(problem)
                 )
             ) from problem
         except UnicodeDecodeError as problem:
@@ -145,6 +145,17 @@ class Library:
         return sorted(
             {key for s in ([sort] if sort else _SORTS) for key, _entry in self._entries[s].values()}
         )
+
+    def entries(self, sort: str) -> dict[str, Any]:
+        """The materials of a sort as their files declare them, by name: nothing is calculated."""
+        return dict(self._entries[sort].values())
+
+    def label(self, name: str) -> str:
+        """The name of a material in the current language, as far as its file tells."""
+        if current_language() == "en":
+            return name
+        found = (self._entries[sort].get(name) for sort in _SORTS)
+        return next((entry.fr for _key, entry in filter(None, found) if getattr(entry, "fr", "")), name)
 
     def fluid(self, name: str) -> Fluid:
         """A pure fluid by name, chemical formula or French name."""

@@ -110,7 +110,17 @@ def size_distribution_chart(
     in_class: Rule = _UNIFORM,
     size_law: OptionalSizeLaw = None,
 ) -> Any:
-    """Histogram per logarithm of size with the cumulative curve, on any basis, and a law to compare."""
+    """Histogram per logarithm of size with the cumulative curve, on any basis, and a law to compare.
+
+    >>> len(
+    ...     size_distribution_chart(
+    ...         class_edges="2 4 8 16 32 64 128 um",
+    ...         class_fractions="2.7 20.3 50.8 23.3 2.7 0.2 %",
+    ...         basis="number",
+    ...     ).data
+    ... )
+    3
+    """
     return distribution_figure(
         SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis or basis),
         size_law,
@@ -145,7 +155,15 @@ def rosin_rammler_chart(
     cumulative_fraction: Annotated[Fraction, Series("points")],
     size_law: OptionalSizeLaw = None,
 ) -> Any:
-    """Cumulative fractions on axes where a Rosin–Rammler law is a straight line."""
+    """Cumulative fractions on axes where a Rosin–Rammler law is a straight line.
+
+    >>> len(
+    ...     rosin_rammler_chart(
+    ...         particle_diameter="20 40 80 160 320 um", cumulative_fraction="9 22 47 77 96 %"
+    ...     ).data
+    ... )
+    1
+    """
     return _paper(particle_diameter, cumulative_fraction, size_law, lambda q: np.log(-np.log1p(-q)), "")
 
 
@@ -155,7 +173,15 @@ def log_probability_chart(
     cumulative_fraction: Annotated[Fraction, Series("points")],
     size_law: OptionalSizeLaw = None,
 ) -> Any:
-    """Cumulative fractions on axes where a log-normal law is a straight line."""
+    """Cumulative fractions on axes where a log-normal law is a straight line.
+
+    >>> len(
+    ...     log_probability_chart(
+    ...         particle_diameter="20 40 80 160 320 um", cumulative_fraction="2.5 16 50 84 97.5 %"
+    ...     ).data
+    ... )
+    1
+    """
     from scipy.special import ndtri
 
     return _paper(particle_diameter, cumulative_fraction, size_law, ndtri, "")
@@ -169,7 +195,13 @@ def partition_chart(
     smallest_size: Length | None = None,
     largest_size: Length | None = None,
 ) -> Any:
-    """Part of each size that goes to the coarse product, with the cut size and measured points."""
+    """Part of each size that goes to the coarse product, with the cut size and measured points.
+
+    >>> partition_chart(
+    ...     separation={"law": "logistic", "cut_size": "100 um", "sharpness": 4.0}
+    ... ).layout.yaxis.range
+    (0, 102)
+    """
     cut = float(separation.cut_size)
     unit = _unit_of([cut])
     grid = np.geomspace(smallest_size or cut / 10.0, largest_size or cut * 10.0, 300)

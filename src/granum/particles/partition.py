@@ -244,7 +244,7 @@ class BypassedPartition(PartitionCurve):
         return self.bypass_fraction + (1.0 - self.bypass_fraction) * self.separation.over(lower, upper)
 
 
-@formula(source="tromp1937; wills2016", equation=r"E_p = \tfrac12 (d_{75} - d_{25})")
+@formula(source="tromp1937; wills2016", title="Probable error", equation=r"E_p = \tfrac12 (d_{75} - d_{25})")
 def probable_error(percentile_75: Length, percentile_25: Length) -> Length:
     """Half the distance between the sizes that go to the coarse product for 75 % and 25 %.
 
@@ -280,6 +280,7 @@ def sharpness_index(percentile_25: Length, percentile_75: Length) -> Ratio:
     source="svarovsky2001; kelsall1953",
     equation=r"G' = \frac{G - R_f}{1 - R_f}",
     title="Reduced (corrected) partition number",
+    symbols={"=partition_number": "G'"},
 )
 def partition_number_reduced(
     partition_number: Fraction, bypass_fraction: Annotated[Fraction, Within(0.0, 0.999)]

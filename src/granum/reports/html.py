@@ -19,7 +19,7 @@ from granum.core.results import Result
 from granum.core.sources import cite
 from granum.core.units import format_number, from_si
 from granum.estimation.results import by_fit
-from granum.reports.mathml import mathml
+from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import (
     check_row,
     defaults_text,
@@ -31,6 +31,7 @@ from granum.reports.quantities import (
     value_text,
 )
 from granum.reports.streams import audit_text, stream_table
+from granum.reports.utilities import utility_table
 from granum.streams.stream import main_phase
 
 
@@ -38,7 +39,7 @@ def _row(p: Parameter, value: Any, origin: str = "") -> dict[str, str]:
     label = f"{p.label} ({origin})" if origin else p.label
     return {
         "label": label,
-        "symbol": mathml(p.term.symbol) if p.term else p.name,
+        "symbol": mathml(p.symbol) if p.symbol else p.name,
         "text": value_text(value, p),
     }
 
@@ -48,7 +49,7 @@ def note_step(step: Result) -> dict[str, Any]:
     return {
         "title": step.card.title,
         "key": step.card.key,
-        "equation": mathml(step.card.equation, display=True),
+        "equation": equation_lines(step.card.equation),
         "inputs": [
             _row(p, step.inputs[p.name], step.origins.get(p.name, ""))
             for p in step.card.parameters
@@ -71,12 +72,12 @@ def note_steps(steps: Iterable[Result]) -> list[dict[str, Any]]:
 def nomenclature(steps: Iterable[Result]) -> list[tuple[str, str]]:
     """The symbols of a calculation note with what they mean."""
     words = {
-        p.term
+        (p.symbol, p.term.label)
         for step in steps
         for p in (*step.card.parameters, *step.card.outputs)
-        if p.term and p.term.symbol
+        if p.term and p.symbol
     }
-    return sorted(((mathml(word.symbol), word.label) for word in words), key=lambda row: row[1])
+    return sorted(((mathml(symbol), label) for symbol, label in words), key=lambda row: row[1])
 
 
 def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
@@ -89,7 +90,9 @@ def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
             _row(p, value) for p, value in report.parameters() if value is not None and str(value)
         ],
         "figures": [_row(p, value) for p, value in report.figures()],
-        "checks": [check_row(c)._asdict() | {"source": cite(c.source)} for c in report.checks],
+        "checks": [
+            check_row(c, report.figures())._asdict() | {"source": cite(c.source)} for c in report.checks
+        ],
         "steps": note_steps(run.notes[name]),
     }
 
@@ -197,6 +200,8 @@ def line_report(run: Any) -> str:
         for name in run.sheet.order
         for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))
     }
+    taken = utility_table(run)
+    keys |= {u.source for name in run.sheet.order for u in run.units[name].model.utilities.values()}
     keys |= {step.card.source for steps in run.notes.values() for step in steps}
     block = [
         (_("Project"), told.get("project", "")),
@@ -237,6 +242,7 @@ def line_report(run: Any) -> str:
         },
         diagram=run.drawing(),
         streams=stream_table(run),
+        utilities=taken,
         fits=_fit_sheets(run),
         symbols=nomenclature(step for steps in run.notes.values() for step in steps),
         charts=_charts(run),

@@ -5,6 +5,7 @@ table.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any, NamedTuple
@@ -13,12 +14,23 @@ import numpy as np
 
 from granum.core.cards import Card
 from granum.core.glossary import ending, quantity_in, term
-from granum.core.i18n import _
+from granum.core.i18n import _, current_language
 from granum.core.kinds import KINDS, Kind, kind_of
 from granum.core.limits import Limit
+from granum.core.notices import units_of
 from granum.core.parameters import Parameter, default_as_json
+from granum.core.results import Result
 from granum.core.sources import cite
-from granum.core.units import field_units, format_number, from_si, pretty_unit, show
+from granum.core.units import (
+    decimal,
+    field_units,
+    format_number,
+    from_si,
+    pretty_unit,
+    same_dimension,
+    show,
+    ten_to,
+)
 
 AMBIGUOUS = ("dimensionless", "1/m")  # a percentage or a number; a surface per volume or a medium resistance
 MOST_SHOWN = 8
@@ -36,6 +48,77 @@ def value_text(value: Any, parameter: Parameter) -> str:
         return show(float(array), parameter.kind, unit)
     items = [format_number(float(x)) for x in np.ravel(from_si(array, unit, parameter.kind))[:MOST_SHOWN]]
     return f"{'; '.join(items)}{' …' if array.size > MOST_SHOWN else ''} {pretty_unit(unit)}".strip()
+
+
+def in_units(value: Any, parameter: Parameter) -> list[dict[str, str]]:
+    """One number in every unit that people write it in, the usual one first: as it is printed, and with all
+    its digits. Empty for what is no single number.
+    """
+    if parameter.kind is None or value is None or np.ndim(value) or not np.isfinite(float(value)):
+        return []
+    usual = parameter.display_unit(value)
+    offered = dict.fromkeys((usual, *field_units(parameter.kind), *parameter.units))
+    fitting = [u for u in offered if same_dimension(u, parameter.kind.unit)]
+    comma = current_language() == "fr"
+    rows = []
+    for unit in fitting:
+        number = float(from_si(value, unit, parameter.kind))
+        full = f"{number:.12g}".replace("e+", "e")
+        rows.append(
+            {
+                "unit": unit,
+                "label": pretty_unit(unit),
+                "text": format_number(number),
+                "full": full.replace(".", ",") if comma else full,
+            }
+        )
+    return rows
+
+
+class BesideRow(NamedTuple):
+    """A number that a calculation went through, and where it lies in the range of its source."""
+
+    name: str
+    label: str
+    symbol: str
+    text: str
+    place: str
+    inside: bool
+
+
+def beside_rows(result: Result) -> list[BesideRow]:
+    """The numbers that a calculation went through, such as its Reynolds number, in words."""
+    return [_beside(row) for row in result.beside]
+
+
+def _beside(row: dict[str, Any]) -> BesideRow:
+    shown, unit = units_of(row | {"worst": row["value"]})
+    word = quantity_in(row["name"])
+    value, low, high = row["value"], row["low"], row["high"]
+    ends = ("−∞" if low is None else shown(low), "∞" if high is None else shown(high))
+    return BesideRow(
+        row["name"],
+        label_of(row["name"]),
+        term(word).symbol if word and word == row["name"] else "",
+        shown(value) + unit,
+        _place(value, low, high).format(low=ends[0], high=ends[1] + unit),
+        (low is None or value >= low) and (high is None or value <= high),
+    )
+
+
+def _place(value: float, low: float | None, high: float | None) -> str:
+    """Where a number lies in a range; within a factor of 1.5 of one end it is near it."""
+    if low is not None and value < low:
+        return _("below {low} … {high}")
+    if high is not None and value > high:
+        return _("above {low} … {high}")
+    near_low = low is not None and 0.0 < low <= value <= 1.5 * low
+    near_high = high is not None and value >= high / 1.5 > 0.0
+    if near_low == near_high:
+        return _("inside {low} … {high}")
+    return (
+        _("near the lower end of {low} … {high}") if near_low else _("near the upper end of {low} … {high}")
+    )
 
 
 def _word(value: Any, parameter: Parameter) -> str:
@@ -101,9 +184,9 @@ def label_of(name: str) -> str:
     return f"{term(word).label} ({ending(rest)})" if rest else term(word).label
 
 
-def statistics_text(data: dict[str, Any]) -> str:
-    """The statistics of the JSON of a fit in one line."""
-    labels = {
+def statistics_rows(data: dict[str, Any]) -> list[tuple[str, str]]:
+    """The statistics of the JSON of a fit, in words with their numbers."""
+    labels: dict[str, str] = {
         "rmse": _("root mean square of the residuals"),
         "r_squared": "R²",
         "aicc": "AICc",
@@ -112,11 +195,15 @@ def statistics_text(data: dict[str, Any]) -> str:
         "points_excluded": _("points excluded"),
         "residual_standard_deviation": _("residual standard deviation"),
         "condition": _("condition of the normal equations"),
+        "smoothing_points": _("points smoothed over"),
     }
-    numbers = ((name, x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
-    return " · ".join(
-        f"{labels.get(name, name.replace('_', ' '))} = {format_number(x)}" for name, x in numbers
-    )
+    numbers = ((str(name), x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
+    return [(labels.get(name, name.replace("_", " ")), format_number(x)) for name, x in numbers]
+
+
+def statistics_text(data: dict[str, Any]) -> str:
+    """The statistics of the JSON of a fit in one line."""
+    return " · ".join(f"{label} = {text}" for label, text in statistics_rows(data))
 
 
 def defaults_text(data: dict[str, Any]) -> str:
@@ -165,7 +252,10 @@ def range_text(low: float, high: float, p: Parameter) -> str:
 
 
 class EstimateRow(NamedTuple):
-    """An estimate in its display unit, each number to the second figure of the standard error."""
+    """An estimate in its display unit, each number to the second figure of the standard error.
+
+    ``together`` is value ± error and ``between`` the interval, both with one power of ten.
+    """
 
     name: str
     label: str
@@ -174,6 +264,8 @@ class EstimateRow(NamedTuple):
     interval: str
     unit: str
     derived: bool
+    together: str = ""
+    between: str = ""
 
 
 def estimate_rows(data: dict[str, Any]) -> list[EstimateRow]:
@@ -197,7 +289,32 @@ def _estimate(card: str, name: str, row: dict[str, Any], derived: bool) -> Estim
         ]
     value, error, low, high = (_to_figure_of(x, numbers[1]) for x in numbers)
     interval = "" if numbers[2] is None and numbers[3] is None else f"{low} … {high}"
-    return EstimateRow(name, label_of(name), value, error, interval, pretty_unit(unit), derived)
+    return EstimateRow(
+        name, label_of(name), value, error, interval, pretty_unit(unit), derived, *_in_one_power(numbers)
+    )
+
+
+def _in_one_power(numbers: Sequence[float | None]) -> tuple[str, str]:
+    """Value ± error, and the interval, each with the power of ten of the value taken out where it is far from
+    one.
+    """
+    value, error, low, high = numbers
+    if value is None:
+        return "—", ""
+    size = math.floor(math.log10(abs(value))) if value else 0
+    power = size if not -3 <= size < 5 else 0
+    fine = error if error and math.isfinite(error) else None
+    figure = math.floor(math.log10(fine / 10.0**power)) - 1 if fine else size - power - 3
+    decimals = max(-figure, 0)
+
+    def written(x: float | None) -> str:
+        return "—" if x is None else decimal(f"{x / 10.0**power:.{decimals}f}")
+
+    def times(text: str, several: bool) -> str:
+        return text if not power else f"({text}) {ten_to(power)}" if several else f"{text} {ten_to(power)}"
+
+    together = times(f"{written(value)} ± {written(error)}", True) if fine else times(written(value), False)
+    return together, "" if low is None and high is None else times(f"{written(low)} … {written(high)}", True)
 
 
 def _to_figure_of(value: float | None, error: float | None) -> str:
@@ -219,13 +336,26 @@ class CheckRow(NamedTuple):
     allowed: str
 
 
-def check_row(check: Any) -> CheckRow:
-    """A check as people read it."""
+def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> CheckRow:
+    """A check as people read it; in the unit of the figure it looks at, where it is one of ``figures``."""
     value, low, high = float(check.value), float(check.low), float(check.high)
-    tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
+    looked_at = next(((p, x) for p, x in figures if _same_quantity(p, x, check)), None)
+    if looked_at is None or looked_at[0].kind is None:
+        tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
+    else:
+        kind, unit = looked_at[0].kind, looked_at[0].display_unit(np.asarray(looked_at[1], dtype=float))
+        value, low, high = (float(from_si(number, unit, kind)) for number in (value, low, high))
+        tail = f" {pretty_unit(unit)}".rstrip()
     far = 1e3 * max(abs(value), 1.0)  # a limit that only says that there is none
     low, high = -math.inf if low <= -far else low, math.inf if high >= far else high
     return CheckRow(_(check.name), check.ok, format_number(value) + tail, _between(low, high) + tail)
+
+
+def _same_quantity(p: Parameter, value: Any, check: Any) -> bool:
+    """Whether a figure is what a check measured."""
+    if p.kind is None or np.ndim(value) or value is None or p.kind.unit != check.unit:
+        return False
+    return math.isclose(float(value), float(check.value), rel_tol=1e-9)
 
 
 class LimitRow(NamedTuple):
@@ -276,3 +406,22 @@ def _between(low: float, high: float) -> str:
     if math.isfinite(low) and math.isfinite(high):
         return f"{format_number(low)} … {format_number(high)}"
     return f"≤ {format_number(high)}" if math.isfinite(high) else f"≥ {format_number(low)}"
+
+
+FINDINGS = ("area", "volume", "power", "diameter")
+"""Quantities that say how large a machine is and what it takes."""
+
+
+def is_finding(p: Parameter) -> bool:
+    """Whether a figure of a unit is what one looks for first: a size or a duty."""
+    return p.kind is not None and not p.series and p.kind.name in FINDINGS
+
+
+def found_rows(run: Any) -> list[dict[str, str]]:
+    """What design specifications found: the input and its value."""
+    rows = []
+    for path, value in run.found.items():
+        unit, _dot, name = path.partition(".")
+        p = type(run.sheet.units[unit]).card.parameter(name)
+        rows.append({"unit": unit, "name": name, "label": p.label, "text": value_text(value, p)})
+    return rows

@@ -13,7 +13,7 @@ from granum.core.i18n import _
 
 
 def table_rows(run: Any) -> dict[str, list[list[Any]]]:
-    """The two tables of a solved line, SI units: streams and unit results."""
+    """The tables of a solved line, SI units: streams, unit results, utilities."""
     data = run.as_json()
     species = [
         (phase, name)
@@ -41,32 +41,45 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
     for unit, row in data["units"].items():
         for name, figure in row["results"].items():
             results.append([unit, row["model"], name, figure["value"], figure["unit"]])
-    return {"streams": streams, "results": results}
+    taken: list[list[Any]] = [["unit", "utility", "carrier", "value", "unit of value", "counted"]]
+    for unit, row in data["units"].items():
+        for name, use in row["utilities"].items():
+            taken.append([unit, name, use["carrier"], use["value"], use["unit"], use["counted"]])
+    for name, total in data["utilities"].items():
+        if isinstance(total, dict) and "value" in total:
+            taken.append(["", name, "", total["value"], total["unit"], ""])
+    return {"streams": streams, "results": results, "utilities": taken}
 
 
 def write_tables(run: Any, path: Path) -> None:
-    """Write ``.csv`` (both tables one under the other) or ``.xlsx`` (a sheet each)."""
-    tables = table_rows(run)
-    if path.suffix == ".csv":
-        text = io.StringIO()
-        writer = csv.writer(text)
-        for rows in tables.values():
-            writer.writerows(rows)
-            writer.writerow([])
-        write_atomic(path, text.getvalue())
-    elif path.suffix == ".xlsx":
-        from openpyxl import Workbook
-
-        book = Workbook()
-        for title, rows in tables.items():
-            sheet = book.create_sheet(title)
-            for row in rows:
-                sheet.append(row)
-        del book["Sheet"]  # the empty one a new book starts with
-        data = io.BytesIO()
-        book.save(data)
-        write_atomic(path, data.getvalue())
-    else:
+    """Write ``.csv`` (the tables one under the other) or ``.xlsx`` (a sheet each)."""
+    form = path.suffix.removeprefix(".")
+    if form not in ("csv", "xlsx"):
         raise InputError(
             _("'{path}': tables are written as .csv or .xlsx.").format(path=path), path=str(path)
         )
+    write_atomic(path, table_file(run, form))
+
+
+def table_file(run: Any, form: str) -> bytes:
+    """The content of a ``csv`` or ``xlsx`` file of the tables."""
+    found = table_rows(run)
+    if form == "csv":
+        text = io.StringIO()
+        writer = csv.writer(text)
+        for rows in found.values():
+            writer.writerows(rows)
+            writer.writerow([])
+        return text.getvalue().encode()
+    from openpyxl import Workbook
+
+    book = Workbook()
+    for title, rows in found.items():
+        sheet = book.create_sheet(title)
+        for row in rows:
+            sheet.append(row)
+        sheet.freeze_panes = "B2"
+    del book["Sheet"]  # the empty one a new book starts with
+    data = io.BytesIO()
+    book.save(data)
+    return data.getvalue()

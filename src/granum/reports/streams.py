@@ -12,7 +12,8 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, from_si, pretty_unit, show
-from granum.streams.stream import summary
+from granum.materials.library import session
+from granum.streams.stream import main_phase, summary
 
 
 def stream_figures(stream: Any) -> list[tuple[str, str]]:
@@ -30,7 +31,9 @@ def stream_figures(stream: Any) -> list[tuple[str, str]]:
     for phase, species, flows in phases:
         for one, flow in zip(species, np.asarray(flows), strict=True):
             if flow > 0.0:
-                figures.append((f"{_(phase)}: {one.name}", show(float(flow), KINDS["MassFlow"])))
+                figures.append(
+                    (f"{_(phase)}: {session().label(one.name)}", show(float(flow), KINDS["MassFlow"]))
+                )
     return figures
 
 
@@ -61,6 +64,98 @@ def stream_table(run: Any) -> StreamTable:
         heads.append(f"{label} {pretty_unit(unit)}")
         cells.append(["" if math.isnan(x) else format_number(float(from_si(x, unit, kind))) for x in values])
     return StreamTable(tuple(heads), list(zip(streams, map(list, zip(*cells, strict=True)), strict=True)))
+
+
+def stream_look(stream: Any) -> dict[str, Any]:
+    """How a diagram shows a stream: its main phase, whether it carries anything, what is said beside it."""
+    flow, degrees = float(stream.mass_flow), float(stream.temperature)
+    return {
+        "phase": main_phase(stream),
+        "empty": flow <= 0.0,
+        "tip": f"{show(flow, KINDS['MassFlow'])}, {show(degrees, KINDS['Temperature'])}",
+    }
+
+
+class Head(NamedTuple):
+    """A column of the stream table: what stands in it, its unit, and the phase it is of."""
+
+    label: str
+    unit: str
+    phase: str
+
+
+def stream_sheet(run: Any) -> dict[str, Any]:
+    """The whole stream table: flows of all and of each phase, temperature, pressure, median size, and the
+    mass fractions within each phase. A cell is empty where the stream has no such phase; below stand the sums
+    over feeds and products.
+    """
+    streams = run.streams
+    told = {name: summary(s) for name, s in streams.items()}
+    mixture = next(iter(streams.values())).mixture
+    phases = [(p, names) for p in PHASES if (names := getattr(mixture, f"{p}s" if p != "gas" else "gases"))]
+    flow = KINDS["MassFlow"]
+    flows = {"": {n: float(s.mass_flow) for n, s in streams.items()}}
+    flows |= {p: {n: float(getattr(t, f"{p}_flow")) for n, t in told.items()} for p, _names in phases}
+    unit = Parameter("mass_flow", flow).display_unit(
+        [x for column in flows.values() for x in column.values()]
+    )
+    heads = [Head(_(p) if p else _("total"), pretty_unit(unit), p) for p in flows]
+    columns = [
+        {
+            n: format_number(float(from_si(x, unit, flow))) if x > 0.0 or not p else ""
+            for n, x in column.items()
+        }
+        for p, column in flows.items()
+    ]
+    for label, kind, values in (
+        ("T", "Temperature", {n: float(s.temperature) for n, s in streams.items()}),
+        ("p", "Pressure", {n: float(s.pressure) for n, s in streams.items()}),
+        ("d₅₀", "Length", {n: float(t.median_size) for n, t in told.items()}),
+    ):
+        shown = Parameter("", KINDS[kind]).display_unit([x for x in values.values() if not math.isnan(x)])
+        if all(map(math.isnan, values.values())):
+            continue  # no solid anywhere
+        heads.append(Head(label, pretty_unit(shown), ""))
+        columns.append(
+            {
+                n: "" if math.isnan(x) else format_number(float(from_si(x, shown, KINDS[kind])))
+                for n, x in values.items()
+            }
+        )
+    for phase, species in phases:
+        if len(species) < 2:
+            continue
+        for i, one in enumerate(species):
+            heads.append(Head(f"w {session().label(one.name)}", "%", phase))
+            columns.append({n: _share(s, phase, i, flows[phase][n]) for n, s in streams.items()})
+    entering = [k.name for k in run.sheet.links if not k.origin]
+    leaving = [k.name for k in run.sheet.links if not k.target]
+    sums = [
+        (
+            label,
+            [
+                format_number(float(from_si(sum(column[n] for n in names), unit, flow)))
+                for column in flows.values()
+            ],
+        )
+        for label, names in ((_("all feeds"), entering), (_("all products"), leaving))
+    ]
+    return {
+        "heads": heads,
+        "rows": [(name, [column[name] for column in columns]) for name in streams],
+        "sums": sums,
+    }
+
+
+PHASES = ("solid", "liquid", "gas")
+
+
+def _share(stream: Any, phase: str, i: int, flow: float) -> str:
+    """The mass fraction of one species in a phase, in percent; nothing where there is no such phase."""
+    if flow <= 0.0:
+        return ""
+    parts = np.asarray(stream.solid_by_species if phase == "solid" else getattr(stream, phase))
+    return format_number(100.0 * float(parts[i]) / flow)
 
 
 def audit_text(audit: Mapping[str, Any]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextvars import ContextVar
 from io import StringIO
 from pathlib import Path
@@ -23,6 +23,7 @@ from granum.core.results import Result
 from granum.core.symbols import text_symbol
 from granum.core.units import format_number, pretty_unit, show
 from granum.reports.quantities import (
+    beside_rows,
     defaults_text,
     estimate_rows,
     figure_named,
@@ -33,6 +34,7 @@ from granum.reports.quantities import (
     statistics_text,
     value_text,
 )
+from granum.reports.utilities import utility_rows
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
 NOTEBOOK = 110  # characters across
@@ -73,8 +75,8 @@ def _notices(console: Console, notices: Iterable[dict[str, Any]]) -> None:
         console.print(Text("! " + notice["message"], style=style))
 
 
-def print_result(result: Result) -> None:
-    """The outcome of ``granum calc``."""
+def print_result(result: Result, within: Mapping[str, str] | None = None) -> None:
+    """The outcome of ``granum calc``; ``within`` tells results as intervals."""
     console = _console()
     console.print(Text(result.card.title, style="bold"), Text(f"  {result.card.key}", style="dim"))
     table = _table((_("quantity"), "left"), (_("symbol"), "left"), (_("value"), "right"))
@@ -85,7 +87,7 @@ def print_result(result: Result) -> None:
         label = f"{p.label} ({origin})" if origin else p.label
         table.add_row(
             label,
-            text_symbol(p.term.symbol) if p.term else "",
+            text_symbol(p.symbol),
             value_text(result.inputs[p.name], p),
             style="dim",
         )
@@ -94,10 +96,15 @@ def print_result(result: Result) -> None:
         if p not in columns:
             table.add_row(
                 Text(p.label, style="bold"),
-                text_symbol(p.term.symbol) if p.term else "",
+                text_symbol(p.symbol),
                 Text(value_text(result.outputs[p.name], p), style="bold"),
             )
     console.print(table)
+    for p in result.card.outputs:
+        if within and p.name in within:
+            console.print(Text(f"{p.label} = {within[p.name]}"))
+    for row in beside_rows(result):
+        console.print(Text(f"{row.label} = {row.text}, {row.place}", style="dim"))
     if columns:
         ranked = _table(*((p.label, "right" if p.kind else "left") for p in columns))
         for row in rows:
@@ -203,6 +210,11 @@ def print_card(card: Card) -> None:
         table = _table((_("practical limit"), "left"), (_("allowed"), "left"), (_("source"), "left"))
         for row in limit_rows(card):
             table.add_row(*row)
+        console.print(table)
+    if card.utilities:
+        table = _table((_("utility"), "left"), (_("source"), "left"))
+        for cells in utility_rows(card):
+            table.add_row(*cells)
         console.print(table)
     if card.equation:
         console.print(Text(card.equation, style="cyan"))

@@ -12,6 +12,7 @@ from granum.core.i18n import _
 from granum.reports.quantities import check_row, value_text
 from granum.reports.streams import audit_text, stream_table
 from granum.reports.terminal import OK, OUT, _console, _notices, _table
+from granum.reports.utilities import utility_table
 
 
 def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -> None:
@@ -32,10 +33,11 @@ def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -
         for i, (p, value) in enumerate(report.figures()):
             table.add_row(Text(unit, style="bold") if i == 0 else "", p.label, value_text(value, p))
         for check in report.checks:
-            row = check_row(check)
+            row = check_row(check, report.figures())
             mark = Text("✓ ", style=OK) if row.ok else Text("✗ ", style=OUT)
             table.add_row("", mark + Text(row.name), f"{row.text} ({row.allowed})")
     console.print(table)
+    _print_utilities(console, outcome)
     audit = outcome.audit
     closes = audit["mass_closure"] <= 1e-9 and audit["energy_closure"] <= 1e-9
     words = _("audit: {closures}").format(closures=audit_text(audit))
@@ -43,3 +45,19 @@ def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -
     _notices(console, outcome.flags)
     for path in saved:
         console.print(_("saved to {path}").format(path=path))
+
+
+def _print_utilities(console: Any, outcome: Any) -> None:
+    found = utility_table(outcome)
+    table = _table((_("unit"), "left"), (_("utility"), "left"), (_("value"), "right"))
+    last = ""
+    for row in found.rows:
+        name = "" if row.unit == last else row.unit
+        text = row.text if row.counted else f"({row.text})"
+        table.add_row(Text(name, style="bold"), row.label, text, style=None if row.counted else "dim")
+        last = row.unit
+    for i, (label, text) in enumerate((*found.carriers, *found.totals)):
+        table.add_row(Text(_("whole line") if i == 0 else "", style="bold"), label, text)
+    console.print(table)
+    if not all(row.counted for row in found.rows):
+        console.print(Text(_("In brackets: given by another unit of the line."), style="dim"))

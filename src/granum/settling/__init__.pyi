@@ -29,7 +29,6 @@ from granum.settling.equipment.clarifier_thickener import (
 from granum.settling.equipment.clarifiers import (
     AbstractBasin as AbstractBasin,
     CircularClarifier as CircularClarifier,
-    CircularFigures as CircularFigures,
     Clarifier as Clarifier,
     GritChamber as GritChamber,
     Lamella as Lamella,
@@ -71,7 +70,6 @@ from granum.settling.formulas.basins import (
     basin_length as basin_length,
     horizontal_velocity_basin as horizontal_velocity_basin,
     overflow_rate_basin as overflow_rate_basin,
-    rake_torque_circular as rake_torque_circular,
     removal_efficiency_camp as removal_efficiency_camp,
     removal_efficiency_classes as removal_efficiency_classes,
     removal_efficiency_hazen as removal_efficiency_hazen,
@@ -90,6 +88,9 @@ from granum.settling.formulas.lamella import (
     critical_velocity_crosscurrent as critical_velocity_crosscurrent,
     lamella_area as lamella_area,
     relative_length_transition_yao as relative_length_transition_yao,
+)
+from granum.settling.formulas.rakes import (
+    rake_torque as rake_torque,
 )
 from granum.settling.formulas.sludge_index import (
     Velocities as Velocities,

@@ -46,6 +46,13 @@ def settling_curve_chart(
 ) -> go.Figure:
     """Settling curve with its zones and Kynch's tangents, each marked with the concentration it stands
     for.
+
+    >>> settling_curve_chart(
+    ...     time="0 0.25 0.5 1 1.75 3 4.75 12 20 hour",
+    ...     interface_height="36 32.4 28.6 21 14.7 12.3 11.55 9.8 8.8 cm",
+    ...     initial_concentration="236 g/L",
+    ... ).layout.xaxis.title.text
+    'time <i>t</i> / min'
     """
     c = BatchTest(time, interface_height, initial_concentration, velocity_function=velocity_function).zones()
     drawing = figure(
@@ -193,7 +200,15 @@ def settling_course_chart(
     packed_concentration: Concentration | None = None,
     cells: Annotated[int, Within(5, 5000)] = 80,
 ) -> go.Figure:
-    """Concentration in a settling cylinder over height, played through time."""
+    """Concentration in a settling cylinder over height, played through time.
+
+    >>> len(
+    ...     settling_course_chart(
+    ...         initial_concentration="3.5 g/L", initial_height="55 cm", time="0 5 10 20 30 45 60 min"
+    ...     ).frames
+    ... )
+    7
+    """
     course = batch_course(
         initial_concentration,
         initial_height,

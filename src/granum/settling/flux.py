@@ -60,7 +60,7 @@ class StatePoint(NamedTuple):
     limiting_concentration: Concentration
 
 
-@formula(source="kynch1952", equation=r"f = C\,v(C)", typical=_SLUDGE)
+@formula(source="kynch1952", title="Solids flux by settling", equation=r"G = C\,v(C)", typical=_SLUDGE)
 def solids_flux_settling(solids_concentration: Concentration, settling: Settling = "takacs") -> MassFlux:
     """Flux of solids by settling alone: concentration times settling velocity.
 
@@ -150,10 +150,11 @@ def steady_state(
 
 @formula(
     source="keinath1985; diehl2001",
-    equation=r"C_F\frac{Q_F}{A} \le \min_{C \ge C_F}\left[C v(C) + \frac{Q_u}{A} C\right]",
+    equation=r"G_a = C_F\frac{Q_F}{A} \le G_L = \min_{C \ge C_F}\left[C\,v(C) + \frac{Q_u}{A} C\right]",
     title="State point of a clarifier or thickener",
     typical=_SLUDGE
     | {"volume_flow": (0.1, 0.3), "underflow_volume_flow": (0.04, 0.09), "area": (500.0, 1500.0)},
+    symbols={"volume_flow": "Q_F"},
 )
 def state_point_clarifier(
     volume_flow: VolumeFlow,
@@ -196,9 +197,10 @@ def state_point_clarifier(
 
 @formula(
     source="yoshioka1957",
-    equation=r"A = \frac{\dot m_s}{G_L}",
+    equation=r"A = \frac{\dot m_s}{G_L},\quad G_L = \min_{C_F \le C < C_u} \frac{C\,v(C)}{1 - C/C_u}",
     title="Area of a thickener by solids flux",
     typical=_SLUDGE | {"mass_flow": (0.1, 1.0)},
+    symbols={"mass_flow": r"\dot m_s"},
 )
 def thickener_area_flux(
     mass_flow: MassFlow,

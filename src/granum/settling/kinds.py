@@ -15,3 +15,7 @@ UnitArea = Annotated[
         display=("m^2*day/tonne", "m^2*hour/kg", "m^2*hour/tonne"),
     ),
 ]
+LineLoad = Annotated[
+    Any, Kind("force per length", "N/m", lower=0.0, open_lower=True, display=("N/m", "lbf/ft"))
+]
+Torque = Annotated[Any, Kind("torque", "N*m", display=("N*m", "kN*m"))]

@@ -26,6 +26,7 @@ from granum.streams.equipment.basics import (
     Heated as Heated,
     Heater as Heater,
     HeaterFigures as HeaterFigures,
+    Mixed as Mixed,
     Mixer as Mixer,
     Single as Single,
     SplitFigures as SplitFigures,
@@ -44,10 +45,23 @@ from granum.streams.equipment.humid_gas import (
     HumidMixer as HumidMixer,
     Humidified as Humidified,
     HumidifierFigures as HumidifierFigures,
-    Mixed as Mixed,
+    MixedGas as MixedGas,
+)
+from granum.streams.equipment.movers import (
+    Fan as Fan,
+    Moved as Moved,
+    MoverFigures as MoverFigures,
+    Pump as Pump,
 )
 from granum.streams.feeding import (
     feed as feed,
+)
+from granum.streams.formulas.drives import (
+    rotation_speed_zwietering as rotation_speed_zwietering,
+    shaft_power_adiabatic as shaft_power_adiabatic,
+    shaft_power_agitator as shaft_power_agitator,
+    shaft_power_incompressible as shaft_power_incompressible,
+    shaft_power_isothermal as shaft_power_isothermal,
 )
 from granum.streams.from_materials import (
     CarrierProperty as CarrierProperty,
@@ -72,5 +86,6 @@ from granum.streams.units import (
     Check as Check,
     Dynamic as Dynamic,
     Operated as Operated,
+    Sheet as Sheet,
     Unit as Unit,
 )

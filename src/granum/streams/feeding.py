@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import jax.numpy as jnp
@@ -186,12 +187,21 @@ def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
         if law is None:
             raise InputError(_("{where}: 'sizes' needs 'law' or 'fractions'.").format(where=where))
         sizes = law_of("size_distribution", law, where, options)
-    cumulative = np.asarray(sizes(mixture.edges))
+    edges = np.asarray(mixture.edges)
+    cumulative = np.asarray(once(partial(_below, sizes), edges))
     inside = cumulative[-1] - cumulative[0]
-    if inside < LEAST_INSIDE:
+    if not inside >= LEAST_INSIDE:
         raise InputError(
             _(
                 "{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes]."
             ).format(where=where, missing=f"{100 * (1 - inside):.3g}")
         )
-    return np.asarray(sizes.classes(mixture.edges).to_basis("volume").fractions)
+    return np.asarray(once(partial(_in_classes, sizes), edges))
+
+
+def _below(law: Any, edges: Any) -> Any:
+    return law(edges)
+
+
+def _in_classes(law: Any, edges: Any) -> Any:
+    return law.classes(edges).to_basis("volume").fractions

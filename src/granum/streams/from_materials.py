@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -106,14 +107,8 @@ def _dissolved(name: str, system: SoluteSystem) -> Species:
     """Apparent density of the solute in the solution saturated at 25 °C; apparent heat capacity from the
     system.
     """
-
-    def apparent(T: Any) -> Any:
-        ratio = system.solubility(298.15)
-        whole = (1.0 + ratio) / system.solution_density(T, ratio)  # volume per kg of solvent
-        return ratio / (whole - 1.0 / system.solvent.liquid_density(T)), system.solute_heat_capacity
-
     T = np.linspace(280.0, 350.0, 8)
-    densities, heat_capacity = once(apparent, T)
+    densities, heat_capacity = once(partial(_apparent, system), T)
     density = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(densities), 1).convert().coef
     return Species(
         name,
@@ -124,6 +119,12 @@ def _dissolved(name: str, system: SoluteSystem) -> Species:
         float(system.molar_mass),
         CONDENSED,
     )
+
+
+def _apparent(system: SoluteSystem, T: Any) -> tuple[Any, Any]:
+    ratio = system.solubility(298.15)
+    whole = (1.0 + ratio) / system.solution_density(T, ratio)  # volume per kg of solvent
+    return ratio / (whole - 1.0 / system.solvent.liquid_density(T)), system.solute_heat_capacity
 
 
 def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
@@ -137,11 +138,15 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
                     tuple(part for part in parts if part[1] > 0),
                     _polynomial(branch.crystal.density),
                     _polynomial(branch.crystal.heat_capacity),
-                    float(once(lambda T, system=system: system.crystal_enthalpy(T, name), ZERO_CELSIUS)),
+                    float(once(partial(_crystal_enthalpy, system, name), ZERO_CELSIUS)),
                     float(branch.crystal.molar_mass),
                     CONDENSED,
                 )
     return None
+
+
+def _crystal_enthalpy(system: SoluteSystem, name: str, T: Any) -> Any:
+    return system.crystal_enthalpy(T, name)
 
 
 def _inert(known: Library, name: str) -> Species:
@@ -180,17 +185,16 @@ def _heat_held(known: Library, fuel: Fluid) -> float:
     """What a fuel's enthalpy lies above that of the gas it burns to at one temperature, which the heating
     value is for 25 °C, J/kg.
     """
+    assert fuel.combustion is not None
+    flue = known.fluid(AIR), known.fluid("water")
+    return float(once(partial(_above_flue, fuel, *flue), 298.15))
+
+
+def _above_flue(fuel: Fluid, air: Fluid, water: Fluid, T: Any) -> Any:
     burns = fuel.combustion
     assert burns is not None
-    at = 298.15
-
-    def above(T: Any) -> Any:
-        flue = (1.0 - burns.water) * known.fluid(AIR).vapor_enthalpy(T) + burns.water * known.fluid(
-            "water"
-        ).vapor_enthalpy(T)
-        return burns.lower_heating_value + flue - fuel.vapor_enthalpy(T)
-
-    return float(once(above, at))
+    flue = (1.0 - burns.water) * air.vapor_enthalpy(T) + burns.water * water.vapor_enthalpy(T)
+    return burns.lower_heating_value + flue - fuel.vapor_enthalpy(T)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core.compiling import begun
 from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
@@ -275,9 +276,10 @@ class Stream(eqx.Module):
 def empty(mixture: Mixture, temperature: Any = 298.15, pressure: Any = STANDARD_ATMOSPHERE) -> Stream:
     """A stream with nothing in it."""
     return Stream(
-        solid=jnp.zeros(mixture.solid_shape),
-        liquid=jnp.zeros((len(mixture.liquids),)),
-        gas=jnp.zeros((len(mixture.gases),)),
+        # zeros of NumPy, which no compiler is asked for
+        solid=jnp.asarray(np.zeros(mixture.solid_shape), dtype=float),
+        liquid=jnp.asarray(np.zeros(len(mixture.liquids)), dtype=float),
+        gas=jnp.asarray(np.zeros(len(mixture.gases)), dtype=float),
         temperature=jnp.asarray(temperature, dtype=float),
         pressure=jnp.asarray(pressure, dtype=float),
         mixture=mixture,

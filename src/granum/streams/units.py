@@ -12,12 +12,15 @@ from typing import Any, ClassVar, NamedTuple, final, get_type_hints
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 
 from granum.core import flags
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.streams.stream import Stream
 
 Limits = dict[str, Limit]
+Utilities = dict[str, Utility]
 
 
 STATIC = {"static": True}
@@ -51,6 +54,7 @@ class Operated(NamedTuple):
     checks: the limits of the class with what was measured. inside: what was worked out on the way, for charts
         and holdups.
     records: what formulas flagged meanwhile.
+    uses: the utilities of the class with how much of each is taken, SI.
     """
 
     outlets: Any
@@ -58,6 +62,15 @@ class Operated(NamedTuple):
     checks: tuple[Check, ...]
     inside: Any
     records: list[flags.Record]
+    uses: dict[str, Any]
+
+
+class Sheet(NamedTuple):
+    """What the data sheet of a unit says: figures, checks, and how much it takes of each utility, SI."""
+
+    figures: Any
+    checks: tuple[Check, ...]
+    uses: dict[str, Any]
 
 
 class Unit(eqx.Module):
@@ -70,11 +83,14 @@ class Unit(eqx.Module):
     * ``figures(self, inside, outlets, feed, …) -> NamedTuple`` annotated with kinds: the data sheet.
     * ``limits``: practical limits by name; ``measured(self, inside, outlets, figures, feed, …)`` gives a
         number for each that applies.
+    * ``utilities``: power, heat, cold, materials and area taken from outside, by name (see
+        ``granum.core.utilities``); ``drawn(self, inside, outlets, figures, feed, …)`` gives how much of each.
     * ``Type.size(...)`` (class method) where sizing has a closed statement: the same equations, another
         unknown.
     """
 
     limits: ClassVar[Limits] = {}
+    utilities: ClassVar[Utilities] = {}
 
     def inside(self, *args: Any, **inlets: Any) -> Any:
         """What outlets, figures and limits have in common, worked out once; nothing by default."""
@@ -92,6 +108,10 @@ class Unit(eqx.Module):
         """One number for each limit that applies."""
         return {}
 
+    def drawn(self, inside: Any, outlets: Any, figures: Any, *args: Any, **inlets: Any) -> dict[str, Any]:
+        """How much of each utility is taken, SI."""
+        return {}
+
     @final
     def operate(self, whole: bool = True, /, **inlets: Stream) -> Operated:
         """The one pass: everything about this unit for these inlets; without figures and checks where not
@@ -99,6 +119,7 @@ class Unit(eqx.Module):
         """
         figures: Any = None
         checks: tuple[Check, ...] = ()
+        uses: dict[str, Any] = {}
         with flags.collect() as records:
             inside = self.inside(**inlets)
             outlets = self.outlets(inside, **inlets)
@@ -106,8 +127,10 @@ class Unit(eqx.Module):
                 figures = self.figures(inside, outlets, **inlets)
                 measured = self.measured(inside, outlets, figures, **inlets)
                 checks = tuple(self._checked(x, measured[n]) for n, x in self.limits.items() if n in measured)
+                drawn = self.drawn(inside, outlets, figures, **inlets)
+                uses = {name: jnp.asarray(drawn[name], dtype=float) for name in self.utilities}
         flags.hand_on(records)
-        return Operated(outlets, figures, checks, inside, records)
+        return Operated(outlets, figures, checks, inside, records, uses)
 
     @final
     def __call__(self, *args: Stream, **inlets: Stream) -> Any:

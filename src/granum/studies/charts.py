@@ -34,8 +34,8 @@ def shown(p: Parameter, values: Any, unit: str) -> np.ndarray:
 
 
 def _axis(v: Variable, unit: str) -> str:
-    term = None if v.named else v.parameter.term
-    symbol = f" <i>{html_symbol(term.symbol)}</i>" if term and term.symbol else ""
+    latex = "" if v.named else v.parameter.symbol
+    symbol = f" <i>{html_symbol(latex)}</i>" if latex else ""
     label = pretty_unit(unit)
     return f"{v.label}{symbol}" + (f" / {label}" if label else "")
 
@@ -81,21 +81,36 @@ def distribution_chart(outcome: Ensemble, v: Variable) -> go.Figure:
             "tickmode": "linear",
             "dtick": 25,
         },
+        yaxis_range=[0, 1.15 * 100 * counts.max() / len(x)],  # room for the names of the lines
         bargap=0,
         showlegend=False,
         margin={"r": 70},
     )
-    for name, share, side in (("P10", 10, "top left"), ("P50", 50, "top"), ("P90", 90, "top right")):
+    for name, share, side, drop in (
+        ("P10", 10, "top left", 0),
+        ("P50", 50, "top right", 0),
+        ("P90", 90, "top right", -16),
+    ):
         place = float(np.percentile(x, share))
         line = {"color": charts.GAS, "width": 1, "dash": "dot"}
         text = f"{name} {format_number(place, 3)}"
         figure.add_vline(
-            x=place, line=line, annotation_text=text, annotation_font_size=11, annotation_position=side
+            x=place,
+            line=line,
+            annotation_text=text,
+            annotation_font_size=11,
+            annotation_position=side,
+            annotation_yshift=drop,
         )
     for limit in outcome.limits.get(v.path, (None, None)):
         if limit is not None:
             figure.add_vline(x=float(shown(v.parameter, limit, unit)), line={"color": charts.OUT, "width": 2})
     return figure
+
+
+def _height(bars: int) -> int:
+    """Height of a chart of bars that lie: no thicker for being few."""
+    return 150 + 44 * max(bars, 2)
 
 
 def _bars(
@@ -107,6 +122,7 @@ def _bars(
     color: str,
 ) -> None:
     error = {"type": "data", "array": spread, "color": charts.INK, "thickness": 1} if spread else None
+    figure.update_layout(height=_height(len(names)))
     figure.add_bar(y=names, x=values, orientation="h", name=name, marker_color=color, error_x=error)
 
 
@@ -276,7 +292,13 @@ def of_optimum(outcome: Optimum) -> dict[str, go.Figure]:
         marker={"color": charts.ACCENT, "size": 12},
         showlegend=False,
     )
-    figure.update_layout(barmode="overlay", xaxis_range=[-18, 118], yaxis_type="category", margin={"l": 220})
+    figure.update_layout(
+        barmode="overlay",
+        xaxis_range=[-18, 118],
+        yaxis_type="category",
+        margin={"l": 220},
+        height=_height(len(names)) + 40,
+    )
     return {"optimum": figure}
 
 

@@ -27,6 +27,7 @@ from granum.flowsheet import Flowsheet
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
 from granum.flowsheet.ladder import RUNGS, at_rung, beginning
 from granum.flowsheet.specifications import Designed, Target
+from granum.flowsheet.utilities import DRYING, FIGURES, WATER, totals
 from granum.streams.stream import Stream, median_of
 from granum.studies.subjects import (
     FINE,
@@ -46,6 +47,7 @@ from granum.studies.subjects import (
 
 """Largest part of what enters that a balance may lose before the line is no solution."""
 PHASES = {"liquid": "liquids", "solid": "solids", "gas": "gases"}
+UTILITIES = "utilities"  # of the line as a whole
 FLOWS = ("mass_flow", "liquid_flow", "solid_flow", "gas_flow")
 STREAM = {
     **dict.fromkeys(FLOWS, "MassFlow"),
@@ -176,9 +178,12 @@ class LineSubject(Subject):
     def own_output(self, path: str) -> Variable:
         plain, index = split_index(path)
         unit, _dot, name = plain.partition(".")
+        if unit == UTILITIES and name in FIGURES and unit not in self.sheet.units:
+            return Variable(path, FIGURES[name])
         if unit in self.sheet.units:
             card = type(self.sheet.units[unit]).card
             known = {p.name: p for p in (*card.parameters, *card.outputs) if p.kind is not None}
+            known |= {use.parameter.name: use.parameter for use in card.utilities}
             known |= {
                 n: Parameter(n, KINDS["Power"])
                 for n in self.sheet.units[unit].power_names()
@@ -218,6 +223,15 @@ class LineSubject(Subject):
         ]
         return tuple(dict.fromkeys((*(t.vary for t in self.targets), *own, *self.quantities)))
 
+    def taken(self) -> tuple[str, ...]:
+        """What the units and the whole line take of each utility, which is shown when it is asked for."""
+        own = [f"{u}.{name}" for u in self.sheet.order for name in type(self.sheet.units[u]).utilities]
+        dries = any(
+            p.name == DRYING for u in self.sheet.order for p in type(self.sheet.units[u]).card.outputs
+        )
+        whole = [f"{UTILITIES}.{name}" for name in FIGURES if dries or name not in WATER]
+        return (*whole, *own)
+
     def arrays(self) -> Any:
         return self.sheet
 
@@ -243,8 +257,15 @@ class LineSubject(Subject):
                 if name in {p.name for p in type(thing).card.outputs}:
                     value = getattr(found.solution.sheets[unit][0], name)
                     return value if index is None else value[index]
+                if name in type(thing).utilities:
+                    return found.solution.sheets[unit].uses[name]
                 if name in thing.power_names():
                     return found.solution.powers[unit][name]
+            if unit == UTILITIES and name in FIGURES:
+                sheets = found.solution.sheets
+                uses = {u: sheets[u].uses for u in line.order}
+                figures = {u: sheets[u].figures for u in line.order}
+                return getattr(totals(line, uses, figures, streams), name)
             stream, _dot, word = plain.rpartition(".")
             if stream not in streams:
                 stream, _dot, word = _before_species(plain)

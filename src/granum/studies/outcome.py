@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from granum.core import notebooks
-from granum.core.errors import InputError
+from granum.core.errors import InputError, reason_of
 from granum.core.files import check_writable
 from granum.core.i18n import _
 from granum.studies.engine import Cases
@@ -38,7 +38,7 @@ def variable_json(v: Variable) -> dict[str, Any]:
     return {
         "name": v.path,
         "label": v.label,
-        "symbol": v.parameter.term.symbol if v.parameter.term and not v.named else "",
+        "symbol": "" if v.named else v.parameter.symbol,
         "unit": v.unit,
         "units": list(v.parameter.units),
     }
@@ -161,9 +161,7 @@ class Outcome(abc.ABC):
             os.replace(name, path)
         except OSError as problem:
             raise InputError(
-                _("'{path}' cannot be written: {reason}.").format(
-                    path=path, reason=problem.strerror or problem
-                ),
+                _("'{path}' cannot be written: {reason}.").format(path=path, reason=reason_of(problem)),
                 path=str(path),
             ) from None
         finally:

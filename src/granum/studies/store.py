@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from granum.core.errors import InputError
+from granum.core.errors import InputError, reason_of
 from granum.core.files import check_writable, write_atomic
 from granum.core.i18n import _
 
@@ -47,7 +47,7 @@ class Store:
             )
         except OSError as problem:
             raise InputError(
-                _("'{path}' cannot be written: {reason}.").format(path=folder, reason=problem.strerror),
+                _("'{path}' cannot be written: {reason}.").format(path=folder, reason=reason_of(problem)),
                 path=str(folder),
             ) from None
         if strange:
@@ -105,7 +105,7 @@ class Store:
         try:
             content = path.read_bytes()
         except OSError as problem:
-            raise ValueError(problem.strerror) from None
+            raise ValueError(reason_of(problem)) from None
         if content[-SEAL:] != self._seal(start, content[:-SEAL]):
             raise ValueError(path.name)
         with np.load(io.BytesIO(content), allow_pickle=False) as kept:

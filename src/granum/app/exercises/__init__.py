@@ -1,5 +1,6 @@
-"""Worked examples and quizzes of the course notes, as data: statements, live calculations, printed
-answers.
+"""Worked examples and quizzes of the course notes, as data: statements, live calculations, printed answers.
+
+A new exercise is a table in one TOML file of this folder; CONTRIBUTING.md says what may stand in it.
 """
 
 from __future__ import annotations
@@ -9,9 +10,29 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from granum.app.exercises.numbers import Numbers, filled_text
 from granum.core import registry
-from granum.core.i18n import current_language
+from granum.core.errors import InputError, unknown_name
+from granum.core.i18n import _, current_language
 from granum.core.units import format_number, pretty_unit
+from granum.reports.mathml import mathml
+
+
+def domain_labels() -> dict[str, str]:
+    """The domains of the course in their order."""
+    return {
+        "powders": _("Particles and powders"),
+        "porous": _("Flow through porous media"),
+        "motion": _("Motion of particles"),
+        "settling": _("Settling and thickening"),
+        "centrifugation": _("Centrifugation"),
+        "filtration": _("Filtration"),
+        "fluidization": _("Fluidization"),
+        "crystallization": _("Crystallization"),
+        "humid_gas": _("Humid gas"),
+        "moist_solids": _("Moist solids and drying kinetics"),
+        "dryers": _("Dryers"),
+    }
 
 
 @cache
@@ -25,24 +46,82 @@ def declared() -> dict[str, list[dict[str, Any]]]:
     return found
 
 
-def _in_language(value: Any) -> Any:
+def exercise(name: str) -> dict[str, Any]:
+    """An exercise as it is declared."""
+    found = {e["id"]: e for e in declared()["exercise"]}
+    if name not in found:
+        raise unknown_name(_("Exercise"), name, found)
+    return found[name]
+
+
+def step_of(name: str, number: int) -> dict[str, Any]:
+    """A step of an exercise, counted from 0."""
+    steps = exercise(name)["steps"]
+    if not 0 <= number < len(steps):
+        raise InputError(_("This exercise has {count} steps.").format(count=len(steps)), name="step")
+    return steps[number]
+
+
+def in_language(value: Any) -> Any:
     """Every ``{en, fr}`` pair replaced by its text in the current language."""
     if isinstance(value, dict):
         if set(value) == {"en", "fr"}:
             return value[current_language()]
-        return {name: _in_language(item) for name, item in value.items()}
-    return [_in_language(item) for item in value] if isinstance(value, list) else value
+        return {name: in_language(item) for name, item in value.items()}
+    return [in_language(item) for item in value] if isinstance(value, list) else value
 
 
 def listing() -> dict[str, Any]:
-    """Exercises and quizzes in the current language, with the labels of the asked quantities."""
-    found = _in_language(declared())
-    for exercise in found["exercise"]:
-        for step in exercise["steps"]:
-            card = registry.find(step["card"]).card
-            step["title"] = card.title
-            step["expected"]["text"] = (
-                f"{format_number(step['expected']['value'])} {pretty_unit(step['expected']['unit'])}".strip()
-            )
-            step["expected"]["label"] = card.parameter(step["expected"]["output"]).label
-    return {"exercises": found["exercise"], "quizzes": found["quiz"]}
+    """Exercises by domain, short, and quizzes, in the current language."""
+    labels = domain_labels()
+    rows = [
+        in_language({"id": e["id"], "title": e["title"], "domain": e["domain"], "steps": len(e["steps"])})
+        for e in declared()["exercise"]
+    ]
+    domains = [
+        {"name": name, "label": label, "exercises": [e for e in rows if e["domain"] == name]}
+        for name, label in labels.items()
+    ]
+    return {
+        "domains": [d for d in domains if d["exercises"]],
+        "quizzes": in_language(declared()["quiz"]),
+    }
+
+
+def worked(name: str, seed: int | None = None) -> dict[str, Any]:
+    """An exercise in the current language with its numbers: those of the course, or fresh ones of a seed."""
+    found = exercise(name)
+    numbers = Numbers(found, seed)
+    text = in_language(found)
+    return {
+        "id": name,
+        "title": text["title"],
+        "source": text["source"],
+        "statement": filled_text(text["statement"], numbers),
+        "fresh": bool(found.get("draws")),
+        "seed": seed,
+        "steps": [_step(step, i, numbers) for i, step in enumerate(text["steps"])],
+    }
+
+
+def _step(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]:
+    card = registry.find(step["card"]).card
+    asked = step["expected"]
+    printed = asked.get("value", asked.get("misprint")) if numbers.seed is None else None
+    return {
+        "ask": filled_text(step["ask"], numbers),
+        "card": step["card"],
+        "title": card.title,
+        "inputs": numbers.inputs(place),
+        "output": asked["output"],
+        "label": card.parameter(asked["output"]).label,
+        "quantity": card.parameter(asked["output"]).as_json()
+        | {"example": {"number": "", "unit": asked["unit"].replace("%", "percent")}},
+        "hint": filled_text(step.get("hint", ""), numbers),
+        "equation": mathml(card.equation, display=True) if card.equation else "",
+        "printed": ""
+        if printed is None
+        else f"{format_number(printed)} {pretty_unit(asked['unit'])}".strip(),
+        "remark": step.get("remark", "") if numbers.seed is None else "",
+        "erratum": step.get("erratum", ""),
+    }

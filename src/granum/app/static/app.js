@@ -19,9 +19,16 @@ import { Lab } from './lab.js';
 import { Lines } from './lines.js';
 import { Studies } from './studies.js';
 import { Exercises } from './exercises.js';
+import { Desk } from './alone.js';
+import { Forward, Home } from './home.js';
+import { Read } from './read.js';
+import { Seek } from './seek.js';
+import { noteRecent } from './recent.js';
+import './pinned.js';
+import './printed.js';
 
 const PAGES = [
-  ['calculate', 'Calculate', (state) => html`<${Calculate} key="calculate" state=${state} />`],
+  ['calculate', 'Calculate', (state) => html`<${Desk} key="calculate" state=${state} />`],
   ['lab', 'Lab data', (state) => html`<${Lab} state=${state} />`],
   ['lines', 'Lines', (state) => html`<${Lines} state=${state} />`],
   [
@@ -37,7 +44,11 @@ const PAGES = [
     (state) => html`<${Calculate} key="select" state=${state} page="select" keep=${isSelection} first="" />`,
   ],
   ['exercises', 'Exercises', (state) => html`<${Exercises} state=${state} />`],
+  ['home', 'Start', (state) => html`<${Home} key="home" state=${state} />`],
+  ['read', 'Reading', (state) => html`<${Read} key="read" state=${state} />`],
+  ['find', 'Find', (state) => html`<${Forward} key="find" state=${state} />`],
 ];
+const ASIDE = ['home', 'read', 'find']; // not in the header
 
 function App() {
   const [state, setState] = useState(readLink());
@@ -47,9 +58,11 @@ function App() {
     const changed = () => {
       const next = readLink();
       keepPlace(next.page);
+      noteRecent(next);
       setState(next);
     };
     keepPlace(readLink().page);
+    noteRecent(readLink());
     const gone = (e) => setAway(e.detail);
     addEventListener('granum-gone', gone);
     addEventListener('hashchange', changed);
@@ -63,8 +76,10 @@ function App() {
     keep(name, value);
     setState(readLink());
   };
-  const page = PAGES.find(([name]) => name === state.page) || PAGES[0];
-  const shown = PAGES.filter(([name]) => name !== 'select' || guides || page[0] === 'select');
+  const page = PAGES.find(([name]) => name === state.page) || PAGES.find(([name]) => name === 'home');
+  const shown = PAGES.filter(
+    ([name]) => !ASIDE.includes(name) && (name !== 'select' || guides || page[0] === 'select'),
+  );
   const other = settings.language === 'fr' ? 'en' : 'fr';
   useEffect(() => {
     document.title = `${t(page[1])} · Granum`;
@@ -72,15 +87,18 @@ function App() {
   }, [page, settings.language]);
   return html`<a class="skip" href="#main" onClick=${(e) => {
     e.preventDefault();
-    document.querySelector('#main input, #main select, #main textarea, #main a')?.focus();
+    const inside = 'input, select, textarea';
+    const form = document.querySelector('#main form, #main section:not(.find)');
+    (form?.querySelector(inside) ?? document.querySelector('#main a, #main input'))?.focus();
   }}>${t('Skip to content')}</a>
-    <header><a class="brand" href=${link('calculate')}><img src="icon.svg" alt="" />Granum</a>
+    <header><a class="brand" href=${link('home')}><img src="icon.svg" alt="" />Granum</a>
       <nav aria-label=${t('Pages')}>${shown.map(
         ([name, label]) =>
           html`<a href=${lastPlace(name)} onClick=${(e) => {
             e.currentTarget.href = lastPlace(name);
           }} aria-current=${name === page[0] ? 'page' : null}>${t(label)}</a>`,
       )}</nav>
+      <${Seek} />
       <div class="tools"><button lang=${other} onClick=${() => set('language', other)}>${other === 'fr' ? 'Français' : 'English'}</button>
         <button aria-label=${t('Units: SI or customary of the United States')} title=${t('Units: SI or customary of the United States')} onClick=${() => set('units', settings.units === 'field' ? 'si' : 'field')}>${settings.units === 'field' ? 'ft·lb' : 'SI'}</button>
         <button aria-label=${t('Light or dark')} onClick=${() => set('theme', settings.theme === 'dark' ? 'light' : 'dark')}>◐</button></div></header>

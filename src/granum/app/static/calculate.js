@@ -15,12 +15,13 @@ import {
   Working,
 } from './core.js';
 import { Plot, decoded } from './plot.js';
-import { Field, changed, fields, missingOf, ordinary } from './form.js';
+import { Fields, changed, fields, missingOf, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
-import { Series } from './series.js';
-import { Spread } from './spread.js';
+import { Result } from './result.js';
+import { Quantity, joined } from './quantity.js';
+import { States, statesOf } from './states.js';
 
-const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
+export const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
 /** Selection guides are the procedures whose name says that they choose. */
 export const isSelection = (c) => c.sort === 'procedure' && /^choose|_choice$/.test(c.card.split('.')[1]);
 
@@ -77,8 +78,36 @@ function Work({ page, card, given }) {
     edited.current = name;
     setValues(next);
   };
+  const [sought, setSought] = useState(null);
+  const rest = { ...values, [sought?.name]: '' };
+  const ready = sought?.text && missingOf(card, card.parameters, rest).every((p) => p.name === sought.name);
+  const solved = useAnswer(
+    (signal) =>
+      ready
+        ? ask(`/api/solve/${card.card}`, { inputs: values, find: sought.name, output: sought.output, wanted: sought.text }, { signal })
+        : Promise.resolve(null),
+    [JSON.stringify([ready, sought, rest])],
+    150,
+  );
+  useEffect(() => {
+    if (solved.data && !solved.pending) set({ ...values, [sought.name]: solved.data.text }, sought.name);
+  }, [solved.data]);
+  const results = card.outputs?.filter((p) => p.kind && !p.series) ?? [];
+  const seek = (p) => {
+    const first = sought?.output || results[0].name;
+    setSought(sought?.name === p.name ? null : { name: p.name, output: first, text: written(answer.data, first) });
+  };
+  const seekable = (p) =>
+    kind === 'calc' && results.length > 0 && p.kind && !p.series && !p.options?.length && p.sort !== 'int';
+  const finder = (p) =>
+    seekable(p) &&
+    html`<button type="button" class="find-input" aria-pressed=${String(sought?.name === p.name)} title=${t('Find the value that gives a wanted result')} aria-label=${t('Find {name} for a wanted result', { name: p.label })} onClick=${() => seek(p)}>${t('find')}</button>`;
   const wrong = fields(card, card.parameters).find((p) => p.name === answer.error?.details?.name);
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
+  // Lists that were opened as lists stay so while somebody types in them.
+  const [asTable] = useState(() => process && statesOf(values) !== null);
+  const states = asTable ? statesOf(values) : null;
+  const inForm = fields(card, card.parameters).filter((p) => !states || !(p.name in STATES));
   const addState = (x, y) => {
     const found = stateAt(answer.data, x, y);
     if (found)
@@ -87,6 +116,10 @@ function Work({ page, card, given }) {
         temperature: appended(values.temperature, found.celsius, 'degC'),
         humidity_ratio: appended(values.humidity_ratio, found.grams, 'g/kg'),
       });
+  };
+  const sheet = async (shown) => {
+    const body = { ...shown, inputs: values, link: location.href };
+    download(`${card.card}.html`, await ask(`/api/sheet/${card.card}`, body, { text: true }), 'text/html');
   };
   const copy = async () => {
     try {
@@ -100,7 +133,10 @@ function Work({ page, card, given }) {
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => {
         edited.current = '';
-      }}>${fields(card, card.parameters).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set(changed(values, p, text), p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
+      }}><${Fields} card=${card} all=${inForm} values=${values} onChange=${(p, text) => {
+        if (p.name === sought?.name) setSought(null);
+        set(changed(values, p, text), p.name);
+      }} aside=${finder} wrong=${wrong} error=${answer.error?.message} /></form>
       <div class="row"><button class="button" disabled=${!past.length} onClick=${() => {
         edited.current = '';
         setValues(past.at(-1));
@@ -109,6 +145,7 @@ function Work({ page, card, given }) {
       <button class="button" onClick=${() => set(ordinary(card))}>${t('Example values')}</button>
       <button class="button" onClick=${copy}>${t('Copy link')}</button>${kind === 'calc' && html` <a class="button" href=${link('studies', 'card:' + card.card, resolved(values, answer.data))}>${t('Study')}</a>`} <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
+      ${sought && html`<${Seek} card=${card} results=${results} sought=${sought} change=${(part) => setSought({ ...sought, ...part })} stop=${() => setSought(null)} solved=${solved} label=${card.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
@@ -116,19 +153,39 @@ function Work({ page, card, given }) {
       ${
         answer.data &&
         (kind === 'chart'
-          ? html`<${Plot} figure=${answer.data} label=${card.title} name=${card.card} onPoint=${process ? (x, y) => addState(x, y) : null} />`
-          : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} />`)
+          ? html`<${Plot} figure=${answer.data} label=${card.title} name=${card.card} onPoint=${process ? (x, y) => addState(x, y) : null} tables=${!states} />`
+          : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} sheet=${sheet} />`)
       }</div>
-      ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
+      ${states && html`<${States} values=${values} states=${states} figure=${answer.data} set=${set} />`}
+      ${process && !states && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
 }
 
-/** Values with the properties that a fluid gave in its place, for pages that ask for them. */
+/** A result as a field takes it, to start from. */
+function written(data, name) {
+  const unit = data?.shown.find((row) => row.name === name)?.units[0];
+  return unit ? joined({ number: unit.full.replace(',', '.'), unit: unit.unit === 'dimensionless' ? '' : unit.unit }) : '';
+}
+
+/** The wanted result, typed where the result stands; the input is found. */
+function Seek({ card, results, sought, change, stop, solved, label }) {
+  const p = results.find((q) => q.name === sought.output);
+  return html`<div class="sought" data-seek=${sought.name}><div class="row"><strong>${t('Find {name} for', { name: label })}</strong>${
+    results.length > 1
+      ? html`<select aria-label=${t('Wanted result')} value=${p.name} onChange=${(e) => change({ output: e.target.value, text: '' })}>${results.map((q) => html`<option value=${q.name} selected=${q.name === p.name}>${q.label}</option>`)}</select>`
+      : html`<label for="wanted">${p.label}</label>`
+  } =</div><div class="row"><${Quantity} key=${p.name} p=${p} id="wanted" note="wanted-note" text=${sought.text} onChange=${(text) => change({ text })} label=${p.label} /><button class="button" onClick=${stop}>${t('Done')}</button></div>
+    <p id="wanted-note" class=${solved.error ? 'small out' : 'small dim'} role="status">${solved.error ? solved.error.message : solved.pending ? '' : (solved.data?.shown ?? '')}</p></div>`;
+}
+
+const STATES = { temperature: true, humidity_ratio: true };
+
+/** Values for pages that take numbers only: the properties that a fluid gave in its place, the middles of intervals. */
 function resolved(values, data) {
-  if (!values.fluid?.trim() || !data?.inputs) return values;
+  if (!data?.inputs) return values;
   const { fluid, ...rest } = values;
   const given = Object.entries(data.inputs)
-    .filter(([, input]) => input?.from)
+    .filter(([name, input]) => (fluid?.trim() && input?.from) || /±|\+\/?-|\.\.|…/.test(rest[name] ?? ''))
     .map(([name, input]) => [name, `${input.value} ${input.unit ?? ''}`.trim()]);
   return { ...rest, ...Object.fromEntries(given) };
 }
@@ -182,43 +239,4 @@ function appended(text, value, unit) {
   const shown = String(Number(value.toPrecision(3)));
   const before = text?.endsWith(` ${unit}`) ? text.slice(0, -unit.length - 1) : '';
   return `${before ? before + ' ' : ''}${shown} ${unit}`;
-}
-
-function Result({ card, values, data, old, kept, keep, clear, choose, laws, setLaws }) {
-  const bad = data.flags.length > 0;
-  const single = data.shown.length <= 3;
-  return html`${data.table && html`<${Ranking} table=${data.table} />`}${
-    single
-      ? data.shown.map(
-          (row) =>
-            html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}>${row.text}</div></div>`,
-        )
-      : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class="n" data-output=${row.name}>${row.text}</td></tr>`)}</tbody></table></div>`
-  }
-    <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
-    <${Series} card=${card} tables=${data.series} />
-    <div class="row"><button class="button" disabled=${old || kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>
-    ${kept.length > 0 && html`<${Comparison} cases=${[...kept, data]} clear=${clear} />`}
-    ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} open=${laws} setOpen=${setLaws} />`}
-    ${data.equation && html`<h2>${t('Equation')}</h2><div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: data.equation }} />`}
-    ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? (settings.language === 'fr' ? ' ; ' : '; ') : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
-    <h2>${t('Source')}</h2><p class="small">${data.citation}</p>
-    <details><summary>${t('The same in Python')}</summary><pre>${data.python}</pre></details>
-    <details><summary>${t('The same on the command line')}</summary><pre>${data.command}</pre></details>
-    <details><summary>${t('About')}</summary><pre lang="en">${card.doc}</pre></details>`;
-}
-
-/** Choices in order, the best first. */
-function Ranking({ table }) {
-  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Choices')}><table data-ranking><thead><tr>${table.columns.map((c) => html`<th scope="col" class=${c.number ? 'n' : ''}>${c.label}</th>`)}</tr></thead>
-    <tbody>${table.rows.map((row) => html`<tr>${row.map((text, i) => html`<td class=${table.columns[i].number ? 'n' : i === 0 ? 'first' : 'small'}>${text}</td>`)}</tr>`)}</tbody></table></div>`;
-}
-
-function Comparison({ cases, clear }) {
-  const names = [...new Set(cases.flatMap((c) => c.inputs_shown.map((row) => row.name)))];
-  const row = (c, name) => c.inputs_shown.find((r) => r.name === name);
-  return html`<h2>${t('Comparison')}</h2><div class="wide"><table><thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${t('case {number}', { number: i + 1 })}</th>`)}</tr></thead>
-    <tbody>${names.map((name) => html`<tr class="dim"><td>${cases.map((c) => row(c, name)?.label).find(Boolean)}</td>${cases.map((c) => html`<td class="n">${row(c, name)?.text ?? '—'}</td>`)}</tr>`)}
-    ${cases[0].shown.map((first, i) => html`<tr><td><strong>${first.label}</strong></td>${cases.map((c) => html`<td class="n"><strong>${c.shown[i].text}</strong></td>`)}</tr>`)}</tbody></table></div>
-    <div class="row"><button class="button" onClick=${clear}>${t('Clear')}</button></div>`;
 }

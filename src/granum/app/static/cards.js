@@ -1,42 +1,155 @@
-// The left column: search, grouped by domain in the order of the house.
-import { html, t, ask, link, useAnswer, useState, settings } from './core.js';
+// The left column: cards grouped by domain in the order of the house, laws of one family together; its own search is the one of every page.
+import { html, t, ask, link, useAnswer, useState, useEffect, useRef, settings } from './core.js';
 import { english } from './strings.fr.js';
 
-export function useCards(keep) {
-  const { data } = useAnswer(() => ask('/api/cards'), [settings.language, settings.units], 0);
+const MANY = 3; // members from which a family is folded
+export const order = Object.keys(english);
+const lists = new Map();
+
+/** All cards in the language of the page, fetched once. */
+function listed() {
+  const { language } = settings;
+  if (!lists.has(language))
+    lists.set(
+      language,
+      ask('/api/cards').catch((problem) => {
+        lists.delete(language);
+        throw problem;
+      }),
+    );
+  return lists.get(language);
+}
+
+const everything = () => true;
+
+export function useCards(keep = everything) {
+  const { data } = useAnswer(listed, [settings.language], 0);
   return data ? data.cards.filter(keep) : null;
 }
 
-const plain = (text) =>
-  text
-    .normalize('NFD')
-    .replace(/[\u0300-\u036f]/g, '')
-    .toLowerCase();
-const order = Object.keys(english);
+/** Entries of a domain: the equipment as a group, then single cards and families of laws in the order of their titles. */
+export function entriesOf(cards) {
+  const families = new Map();
+  for (const c of cards) {
+    const name = c.sort === 'equipment' ? 'equipment' : c.family && `family ${c.family}`;
+    if (name) families.set(name, [...(families.get(name) || []), c]);
+  }
+  const folded = [...families].filter(([name, list]) => name === 'equipment' || list.length >= MANY);
+  const inside = new Set(folded.flatMap(([, list]) => list));
+  const groups = folded.map(([name, list]) => ({
+    name,
+    list,
+    title:
+      name === 'equipment'
+        ? t('Equipment – {count}', { count: list.length })
+        : t('{family} – {count} laws', { family: list[0].family_title, count: list.length }),
+  }));
+  const single = cards.filter((c) => !inside.has(c)).map((c) => ({ card: c, title: c.title }));
+  const first = (entry) => (entry.name === 'equipment' ? 0 : 1);
+  return [...groups, ...single].sort(
+    (a, b) => first(a) - first(b) || a.title.localeCompare(b.title, settings.language),
+  );
+}
 
 export function Finder({ page, current, cards }) {
   const [word, setWord] = useState('');
+  const asked = word.trim();
+  const found = useAnswer(
+    (signal) =>
+      asked
+        ? ask(`/api/cards?word=${encodeURIComponent(asked)}`, undefined, { signal })
+        : Promise.resolve(null),
+    [asked, settings.language],
+  );
+  const list = useRef(null);
+  useEffect(() => {
+    oneStop(list.current);
+    list.current?.querySelector('[aria-current]')?.scrollIntoView({ block: 'nearest' });
+  }, [current, Boolean(cards)]);
+  useEffect(() => oneStop(list.current));
   if (!cards)
-    return html`<section class="find" aria-busy="true" aria-label=${t('Find')}><p class="dim">${t('Loading…')}</p></section>`;
-  const words = plain(word).split(/\s+/).filter(Boolean);
-  const found = cards.filter((c) => {
-    const text = plain(`${c.card.replaceAll('_', ' ')} ${c.card} ${c.title} ${c.summary} ${c.other_names}`);
-    return words.every((w) => text.includes(w));
-  });
-  const groups = new Map(order.map((domain) => [domain, []]));
-  found.forEach((c) => groups.get(c.domain)?.push(c) ?? groups.set(c.domain, [c]));
-  const few = cards.length <= 40 || words.length > 0;
+    return html`<section class="find" aria-busy="true" aria-label=${t('Find')}><p class="dim">${t('The list of cards is on its way…')}</p></section>`;
+  const here = new Set(cards.map((c) => c.card));
+  const hits = asked && found.data ? found.data.cards.filter((c) => here.has(c.card)) : null;
   return html`<section class="find" aria-label=${t('Find')}>
-    <input type="search" aria-label=${t('Search cards')} placeholder=${t('Search {count} cards…', { count: cards.length })} value=${word} onInput=${(e) => setWord(e.target.value)} />
-    <div class="scroll" tabindex="0" role="region" aria-label=${t('Cards found')}>${[...groups]
-      .filter(([, list]) => list.length)
-      .map(
-        ([
-          domain,
-          list,
-        ]) => html`<details open=${few || (current || '').startsWith(domain + '.')} key=${domain + few}>
+    <input type="search" aria-label=${t('Search cards')} placeholder=${t('Search {count} cards…', { count: cards.length })} value=${word} onInput=${(e) => setWord(e.target.value)} onKeyDown=${(
+      e,
+    ) => {
+      if (e.key !== 'ArrowDown') return;
+      e.preventDefault();
+      visible(list.current)[0]?.focus();
+    }} />
+    <nav class="scroll" ref=${list} aria-label=${t('Cards found')} onKeyDown=${walk} onfocusin=${(e) => oneStop(list.current, e.target)}>
+      ${asked ? hits && html`<ul>${hits.map((c) => html`<${Item} key=${c.card} page=${page} card=${c} current=${current} />`)}</ul>` : html`<${Tree} page=${page} cards=${cards} current=${current} />`}
+      ${hits?.length === 0 && !found.pending && html`<p class="dim">${t('Nothing found.')}</p>`}</nav></section>`;
+}
+
+function Tree({ page, cards, current }) {
+  const groups = new Map(order.map((domain) => [domain, []]));
+  cards.forEach((c) => groups.get(c.domain)?.push(c) ?? groups.set(c.domain, [c]));
+  const few = cards.length <= 40;
+  return [...groups]
+    .filter(([, list]) => list.length)
+    .map(
+      ([domain, list]) => html`<details open=${few || (current || '').startsWith(domain + '.')} key=${domain}>
       <summary>${t(domain)} <span class="dim">${list.length}</span></summary>
-      <ul>${list.map((c) => html`<li><a href=${link(page, c.card)} aria-current=${c.card === current ? 'page' : null} title=${c.summary}>${c.title}</a></li>`)}</ul></details>`,
-      )}
-    ${found.length === 0 && html`<p class="dim">${t('Nothing found.')}</p>`}</div></section>`;
+      <ul>${(few ? list.map((card) => ({ card })) : entriesOf(list)).map((entry) =>
+        entry.card
+          ? html`<${Item} key=${entry.card.card} page=${page} card=${entry.card} current=${current} />`
+          : html`<li key=${entry.name}><details class="family" open=${entry.list.some((c) => c.card === current)}><summary>${entry.title}</summary>
+            <ul>${entry.list.map((c) => html`<${Item} key=${c.card} page=${page} card=${c} current=${current} />`)}</ul></details></li>`,
+      )}</ul></details>`,
+    );
+}
+
+const Item = ({ page, card: c, current }) =>
+  html`<li><a href=${link(page, c.card)} aria-current=${c.card === current ? 'page' : null} title=${c.summary}>${c.title}</a></li>`;
+
+// ---- one tab stop, arrow keys inside ----------------------------------------------------------------
+const visible = (list) =>
+  [...(list?.querySelectorAll('summary, a') || [])].filter((e) => e.checkVisibility());
+
+/** Only one entry is reached by Tab: the one that has the focus, else the open card, else the first. */
+function oneStop(list, wanted) {
+  if (!list) return;
+  const all = [...list.querySelectorAll('summary, a')];
+  const stop =
+    (wanted && all.includes(wanted) && wanted) ||
+    all.find((e) => e === document.activeElement) ||
+    all.find((e) => e.hasAttribute('aria-current') && e.checkVisibility()) ||
+    all[0];
+  all.forEach((e) => {
+    e.tabIndex = e === stop ? 0 : -1;
+  });
+}
+
+function walk(e) {
+  const list = visible(e.currentTarget);
+  const at = list.indexOf(e.target);
+  if (at < 0) return;
+  const details = e.target.matches('summary') && e.target.parentElement;
+  const above = e.target.parentElement.closest('details')?.parentElement?.closest('details');
+  const parent = (details ? above : e.target.closest('details'))?.querySelector('summary');
+  const next = {
+    ArrowDown: () => list[at + 1],
+    ArrowUp: () => list[at - 1] || e.currentTarget.parentElement.querySelector('input'),
+    Home: () => list[0],
+    End: () => list.at(-1),
+    ArrowRight: () => {
+      if (!details) return null;
+      if (details.open) return list[at + 1];
+      details.open = true;
+      return e.target;
+    },
+    ArrowLeft: () => {
+      if (details?.open) {
+        details.open = false;
+        return e.target;
+      }
+      return parent;
+    },
+  }[e.key];
+  if (!next) return;
+  e.preventDefault();
+  next()?.focus();
 }

@@ -8,9 +8,9 @@ export { h, html, render, useState, useEffect, useRef, useMemo, useCallback };
 let links = 0;
 export function readLink() {
   const [path, query = ''] = location.hash.replace(/^#\/?/, '').split('?');
-  const [page = 'calculate', ...rest] = path.split('/').map(decodeURIComponent);
+  const [page = 'home', ...rest] = path.split('/').map(decodeURIComponent);
   return {
-    page: page || 'calculate',
+    page: page || 'home',
     key: rest.join('/'),
     values: Object.fromEntries(new URLSearchParams(query)),
     visit: ++links,
@@ -30,19 +30,26 @@ export function replaceLink(page, key, values) {
   keepPlace(page);
 }
 
-// ---- what outlives a reload, a change of language and a look at another page --------------------------
+// ---- what outlives a reload, a change of language, a look at another page and a closed tab -------------
+const memories = () => [sessionStorage, localStorage]; // one's own tab first, then what the last tab left
+/** Keeps a value in this browser; false when it cannot (a private window, or too large). */
 export function remember(name, value) {
   try {
-    value === null || value === undefined
-      ? sessionStorage.removeItem('granum:' + name)
-      : sessionStorage.setItem('granum:' + name, JSON.stringify(value));
+    for (const memory of memories())
+      value === null || value === undefined
+        ? memory.removeItem('granum:' + name)
+        : memory.setItem('granum:' + name, JSON.stringify(value));
+    return true;
   } catch {
-    /* private window or too large: kept only as long as the page */
+    return false;
   }
 }
 export function recall(name, fallback = null) {
   try {
-    return JSON.parse(sessionStorage.getItem('granum:' + name)) ?? fallback;
+    const found = memories()
+      .map((memory) => memory.getItem('granum:' + name))
+      .find((text) => text !== null);
+    return found === undefined ? fallback : (JSON.parse(found) ?? fallback);
   } catch {
     return fallback;
   }
@@ -50,15 +57,17 @@ export function recall(name, fallback = null) {
 /** Where one was on a page, so that its entry in the header leads back there. */
 export const keepPlace = (page) => remember('place ' + page, location.hash);
 export const lastPlace = (page) => recall('place ' + page, link(page));
-/** A state that outlives its component. */
+/** A state that outlives its component; the third says whether it was kept. */
 export function useKept(name, fallback) {
   const [value, set] = useState(() => recall(name, fallback));
+  const [kept, setKept] = useState(true);
   return [
     value,
     (next) => {
-      remember(name, next);
+      setKept(remember(name, next));
       set(next);
     },
+    kept,
   ];
 }
 
@@ -146,6 +155,7 @@ export async function ask(path, body, options = {}) {
     signal: options.signal,
   });
   if (options.text && response.ok) return response.text();
+  if (options.blob && response.ok) return response.blob();
   const data = await response.json();
   if (!response.ok)
     throw Object.assign(new Error(data.error?.message || t('The server did not understand the request.')), {

@@ -12,6 +12,8 @@ const all = () => {
 };
 
 export const drafted = (place) => all()[place] ?? null;
+/** Places of everything that was changed and not saved. */
+export const draftedPlaces = () => Object.keys(all());
 export function keepDraft(place, text) {
   const drafts = all();
   if (text === null) delete drafts[place];

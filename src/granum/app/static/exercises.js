@@ -1,48 +1,126 @@
-// Exercises: statement on the left, live calculation on the right, the printed answer hidden until asked for; quizzes under them.
-import { html, t, ask, link, useAnswer, useState, settings } from './core.js';
+// Exercises: statement, numbers, an answer of one's own for each step, marked at once; hint, then answer; quizzes under them.
+import { html, t, ask, link, useAnswer, useKept, useState, settings, Working } from './core.js';
 import { Quiz } from './quiz.js';
+import { Quantity } from './quantity.js';
+import { note, done, exported, useProgress } from './progress.js';
 
 export function Exercises({ state }) {
   const { data, error } = useAnswer(() => ask('/api/exercises'), [settings.language, settings.units], 0);
+  const progress = useProgress();
   if (error)
     return html`<main class="page" id="main"><h1>${t('Exercises')}</h1><p class="message out">${error.message}</p></main>`;
   if (!data)
     return html`<main class="page" id="main" aria-busy="true"><h1>${t('Exercises')}</h1><p class="dim">${t('Loading…')}</p></main>`;
-  const exercise = data.exercises.find((e) => e.id === state.key) || data.exercises[0];
+  const all = data.domains.flatMap((d) => d.exercises);
   const quizzes = state.key === 'quizzes';
-  return html`<main class="two" id="main"><section class="find" aria-label=${t('Find')}><h2 class="first">${t('Worked examples')}</h2>
-      <ul>${data.exercises.map((e) => html`<li><a href=${link('exercises', e.id)} aria-current=${!quizzes && e.id === exercise.id ? 'page' : null}>${e.title}</a></li>`)}</ul>
-      <h2>${t('Questions')}</h2><ul><li><a href=${link('exercises', 'quizzes')} aria-current=${quizzes ? 'page' : null}>${t('{count} questions of the course', { count: data.quizzes.length })}</a></li></ul></section>
+  const current = quizzes ? 'quizzes' : (all.find((e) => e.id === state.key) || all[0]).id;
+  const seed = /^\d{1,6}$/.test(state.values.seed || '') ? Number(state.values.seed) : null;
+  const answered = data.quizzes.filter((quiz) => done(progress, quiz.id, 1)).length;
+  return html`<main class="two" id="main"><section class="find" aria-label=${t('Find')}><details class="course" open=${!matchMedia('(max-width: 62rem)').matches}><summary>${t('Worked examples')} <span class="dim">${all.length}</span></summary>
+      ${data.domains.map(
+        (domain) =>
+          html`<h3>${domain.label}</h3><ul>${domain.exercises.map((e) => html`<li><a href=${link('exercises', e.id)} aria-current=${e.id === current ? 'page' : null}>${e.title} <${Share} count=${done(progress, e.id, e.steps)} of=${e.steps} /></a></li>`)}</ul>`,
+      )}
+      </details><h2>${t('Questions')}</h2><ul><li><a href=${link('exercises', 'quizzes')} aria-current=${quizzes ? 'page' : null}>${t('{count} questions of the course', { count: data.quizzes.length })} <${Share} count=${answered} of=${data.quizzes.length} /></a></li></ul>
+      <div class="row"><button class="button" disabled=${!Object.keys(progress).length} onClick=${exported}>${t('Download my progress')}</button></div>
+      <p class="small dim">${t('Answers are kept in this browser only.')}</p></section>
     ${
       quizzes
         ? html`<section aria-label=${t('Questions')}><h1>${t('Questions')}</h1>${data.quizzes.map((quiz) => html`<${Quiz} key=${quiz.id + settings.language} quiz=${quiz} />`)}</section>`
-        : html`<section aria-label=${t('Worked examples')} key=${exercise.id}><h1>${exercise.title}</h1><p class="statement">${exercise.statement}</p>
-        <ol class="steps">${exercise.steps.map((step, i) => html`<${Step} key=${exercise.id + i + settings.language} step=${step} />`)}</ol>
-        <p class="small dim">${exercise.source}</p></section>`
+        : html`<${Exercise} key=${`${current} ${seed} ${settings.language} ${settings.units}`} name=${current} seed=${seed} progress=${progress} />`
     }</main>`;
 }
 
-function Step({ step }) {
+const Share = ({ count, of }) =>
+  count > 0 &&
+  html`<span class=${count === of ? 'ok small' : 'dim small'}>${count === of ? '✓' : `${count}/${of}`}<span class="hidden">${' '}${t('{count} of {of} solved', { count, of })}</span></span>`;
+
+function Exercise({ name, seed, progress }) {
+  const query = seed === null ? '' : `?seed=${seed}`;
+  const {
+    data: exercise,
+    error,
+    pending,
+    cancel,
+    job,
+  } = useAnswer(
+    (signal) => ask(`/api/exercises/${encodeURIComponent(name)}${query}`, undefined, { signal }),
+    [name, seed],
+    0,
+  );
+  const fresh = () => {
+    location.hash = link('exercises', name, { seed: 1 + Math.floor(Math.random() * 999999) });
+  };
+  if (!exercise)
+    return html`<section aria-busy=${String(pending)} aria-label=${t('Worked examples')}>${error ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim">${t('Loading…')}</p>`}<${Working} busy=${pending} cancel=${cancel} job=${job} /></section>`;
+  return html`<section aria-label=${t('Worked examples')}><h1>${exercise.title}</h1><p class="statement">${exercise.statement}</p>
+    ${exercise.fresh && html`<div class="row"><button class="button" onClick=${fresh}>${t('Other numbers')}</button>${seed !== null && html` <a href=${link('exercises', name)}>${t('Back to the first numbers')}</a>`}</div>`}
+    <ol class="steps">${exercise.steps.map((step, i) => html`<${Step} key=${i} name=${name} place=${i} seed=${seed} step=${step} record=${progress[name]?.[i]} />`)}</ol>
+    <p class="small dim">${exercise.source}</p></section>`;
+}
+
+function Step({ name, place, seed, step, record }) {
+  const [kept, keep] = useKept(`answer ${name} ${place} ${seed ?? ''}`, { text: '', verdict: null });
+  const said =
+    kept.verdict && (kept.language === settings.language ? kept.verdict.text : t(kept.verdict.verdict));
+  const [hint, setHint] = useState(false);
   const [open, setOpen] = useState(false);
-  const [told, setTold] = useState(false);
-  const x = step.expected;
+  const [busy, setBusy] = useState(false);
+  const [problem, setProblem] = useState('');
   const calculated = useAnswer(
     (signal) => (open ? ask(`/api/calc/${step.card}`, step.inputs, { signal }) : Promise.resolve(null)),
     [open],
     0,
   );
-  const row = calculated.data?.shown.find((r) => r.name === x.output);
-  return html`<li data-step><h2>${step.ask}</h2>
-    <div class="row"><button class="button" aria-expanded=${String(told)} onClick=${() => setTold(!told)}>${told ? t('Hide the answer') : t('Show the answer')}</button>
-      <button class="button" aria-expanded=${String(open)} onClick=${() => setOpen(!open)}>${open ? t('Hide the calculation') : t('Show the calculation')}</button>
-      <a href=${link('calculate', step.card, step.inputs)}>${t('Open in Calculate')}</a></div>
-    <div aria-live="polite">${told && html`<p data-answer><strong>${x.label} = ${x.text}</strong> <span class="dim">(${t('as printed in the course')})</span></p>${step.remark && html`<p class="small dim">${step.remark}</p>`}`}
-    ${calculated.error && html`<p class="message out">${calculated.error.message}</p>`}
-    ${
-      open &&
-      row &&
-      html`<div class="card"><div class="dim">${step.title}</div>${calculated.data.equation && html`<div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: calculated.data.equation }} />`}
-      <p class="small">${calculated.data.inputs_shown.map((r, i) => html`${i > 0 ? ' ; ' : ''}<span class="pair"><span dangerouslySetInnerHTML=${{ __html: r.symbol }} /> = ${r.text}</span>`)}</p>
-      <p class="result" data-output=${row.name}><span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = <strong>${row.text}</strong></p></div>`
-    }</div></li>`;
+  const row = calculated.data?.shown.find((r) => r.name === step.output);
+  const right = kept.verdict?.verdict === 'right';
+  const check = async () => {
+    if (!kept.text.trim() || busy) return;
+    setBusy(true);
+    setProblem('');
+    try {
+      const verdict = await ask(`/api/exercises/${encodeURIComponent(name)}`, {
+        step: place,
+        answer: kept.text,
+        seed,
+      });
+      keep({ text: kept.text, verdict, language: settings.language });
+      if (verdict.verdict !== 'unclear')
+        note(name, place, { right: verdict.verdict === 'right', answer: kept.text, seed });
+    } catch (fault) {
+      setProblem(fault.message);
+    }
+    setBusy(false);
+  };
+  const reveal = () => {
+    if (!open && !right) note(name, place, { shown: true, seed });
+    setOpen(!open);
+  };
+  return html`<li data-step=${place}><h2>${step.ask}</h2>
+    <form class="row reply" onSubmit=${(e) => {
+      e.preventDefault();
+      check();
+    }}><${Quantity} p=${step.quantity} label=${step.label} text=${kept.text} onChange=${(text) => keep({ text, verdict: null })} />
+      <button class="button main" disabled=${!kept.text.trim() || busy}>${t('Check')}</button>
+      <button type="button" class="button" aria-expanded=${String(hint)} onClick=${() => setHint(!hint)}>${t('Hint')}</button>
+      <button type="button" class="button" aria-expanded=${String(open)} onClick=${reveal}>${open ? t('Hide the answer') : t('Show the answer')}</button></form>
+    <p role="status" data-verdict=${kept.verdict?.verdict ?? ''} class=${`mark ${right ? 'ok' : 'out'}`}>${kept.verdict && `${right ? '✓' : '✗'} ${said}`}</p>
+    ${problem && html`<p class="message out" role="alert">${problem}</p>`}
+    ${!kept.verdict && record?.right && html`<p class="small ok">✓ ${t('Solved before.')}</p>`}
+    ${hint && html`<div class="card" data-hint>${step.hint && html`<p>${step.hint}</p>`}<div class="dim">${step.title}</div>${step.equation && html`<${Equation} shown=${step.equation} />`}</div>`}
+    ${open && html`<div class="card" data-answer>${calculated.error && html`<p class="message out">${calculated.error.message}</p>`}<${Working} busy=${calculated.pending} cancel=${calculated.cancel} job=${calculated.job} />${row && html`<${Answer} step=${step} row=${row} data=${calculated.data} />`}</div>`}
+    ${(right || open) && step.erratum && html`<p class="message caution small" data-erratum>${step.erratum}</p>`}</li>`;
+}
+
+const Equation = ({ shown }) =>
+  html`<div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: shown }} />`;
+
+function Answer({ step, row, data }) {
+  const apart = settings.language === 'fr' ? ' ; ' : '; ';
+  return html`<p class="result" data-output=${row.name}><span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = <strong>${row.text}</strong></p>
+    ${step.printed && html`<p class="small" data-printed>${t('Printed in the course: {value}', { value: step.printed })}</p>`}
+    ${step.remark && html`<p class="small dim">${step.remark}</p>`}
+    <div class="dim">${step.title}</div>${data.equation && html`<${Equation} shown=${data.equation} />`}
+    <p class="small">${data.inputs_shown.map((r, i) => html`${i > 0 ? apart : ''}<span class="pair"><span dangerouslySetInnerHTML=${{ __html: r.symbol }} /> = ${r.text}</span>`)}</p>
+    <p class="small"><a href=${link('calculate', step.card, step.inputs)}>${t('Open in Calculate')}</a></p>`;
 }

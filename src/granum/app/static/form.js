@@ -1,15 +1,32 @@
 // A form made from a card: one field per parameter, with units, limits and range of the source beside it.
-import { html, t } from './core.js';
+import { html, t, useState } from './core.js';
 import { Quantity, inLanguage, joined } from './quantity.js';
 
-export function Field({ parameter: p, text, onChange, problem, id = `field-${p.name}` }) {
+export function Field({ parameter: p, text, onChange, problem, id = `field-${p.name}`, aside = '' }) {
   const note = `${id}-note`;
   const Entry =
     text?.startsWith('{') && p.law ? LawTable : p.options?.length ? Choice : p.kind ? Quantity : Text;
-  return html`<div class="field"><label for=${id}>${p.label} <span class="symbol" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} />${!p.required && html` <span class="small dim">${t('optional')}</span>`}</label>
+  const range = p.source_range && `${t('source covers')} ${p.source_range}`;
+  return html`<div class=${`field${problem ? ' wrong' : ''}${p.series || p.gives || (p.law && Entry === LawTable) ? ' long' : ''}`}><div class="head"><label for=${id}>${p.label} <span class="symbol" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} />${!p.required && html` <span class="small dim optional">${t('optional')}</span>`}</label>${aside}</div>
     <div class="entry"><${Entry} p=${p} id=${id} note=${note} text=${text} onChange=${onChange} problem=${problem} /></div>
-    <div class="note small dim" id=${note}>${[p.allowed, p.source_range && `${t('source covers')} ${p.source_range}`].filter(Boolean).join(' · ')}
+    <div class="note small dim" id=${note}>${p.allowed && html`<span class=${p.gives ? '' : 'bounds'}>${p.allowed}</span>`}${p.allowed && range && html`<span class="bounds"> · </span>`}${range}
     ${problem && !p.kind && html`<div class="out">${problem}</div>`}</div></div>`;
+}
+
+/** The fields of a card: what must be given and what it is about in front, what may be left out folded; a field does not move while it is filled. */
+export function Fields({ card, all, values, onChange, wrong, error, aside }) {
+  const [folded] = useState(() => {
+    const some = card.sort !== 'chart' && all.some((p) => p.required);
+    return new Set(
+      all.filter((p) => some && !p.required && !p.gives && !p.law && !values[p.name]).map((p) => p.name),
+    );
+  });
+  const [open, setOpen] = useState(false);
+  const field = (p) =>
+    html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => onChange(p, text)} problem=${wrong === p ? error : ''} aside=${aside?.(p)} />`;
+  const rest = all.filter((p) => folded.has(p.name));
+  return html`<div class="fields">${all.filter((p) => !folded.has(p.name)).map(field)}</div>
+    ${rest.length > 0 && html`<details class="more" open=${open || rest.includes(wrong)} onToggle=${(e) => setOpen(e.target.open)}><summary>${t('More ({count})', { count: rest.length })}</summary><div class="fields">${rest.map(field)}</div></details>`}`;
 }
 
 function Choice({ p, id, note, text, onChange }) {

@@ -6,13 +6,16 @@ import {
   useAnswer,
   useState,
   useKept,
+  recall,
+  remember,
   settings,
   replaceLink,
   useEffect,
   download,
   Working,
 } from './core.js';
-import { Plot } from './plot.js';
+import { Plot, decoded } from './plot.js';
+import { UseInLine } from './lab_line.js';
 import { Field, changed, fields, missingOf } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { inLanguage } from './quantity.js';
@@ -33,6 +36,9 @@ export function Lab({ state }) {
 
 function Test({ card, given }) {
   const columns = card.parameters.filter((p) => p.series);
+  const [values, setValues] = useState(
+    Object.keys(given).length ? given : recall('conditions ' + card.card, {}),
+  );
   const conditions = card.parameters
     .filter((p) => !p.series)
     .map((p) => ({
@@ -42,13 +48,15 @@ function Test({ card, given }) {
           ? t('e.g. {value}', { value: inLanguage(p.example.number) })
           : undefined,
     }));
-  const example = columns.map((p) => `${p.name} [${p.units?.[0]?.unit || '1'}]`).join(',');
-  const [values, setValues] = useState(given);
-  const [table, setTable] = useKept('table ' + card.card, '');
+  const example = columns.map((p) => `${p.label} [${p.units?.[0]?.unit || '1'}]`).join(',');
+  const [table, setTable, tableKept] = useKept('table ' + card.card, '');
   const [told, setTold] = useKept('told ' + card.card, '');
   const [trial, setTrial] = useKept('trial ' + card.card, null);
   const [over, setOver] = useState(false);
-  useEffect(() => replaceLink('lab', card.card, values), [values]);
+  useEffect(() => {
+    replaceLink('lab', card.card, values);
+    remember('conditions ' + card.card, values);
+  }, [values]);
   const missing = missingOf(card, conditions, values);
   const answer = useAnswer(
     async (signal) => {
@@ -90,6 +98,12 @@ function Test({ card, given }) {
     setTrial(card.trial);
     setTold('');
   };
+  const left = answer.data && !answer.pending ? leftOutAtStart(answer.data.kept) : 0;
+  const shown = conditions.map((p) =>
+    p.name === 'first_points_excluded' && left > 0
+      ? { ...p, allowed: t('{count} (found automatically)', { count: left }) }
+      : p,
+  );
   const wrong = fields(card, conditions).find((p) => p.name === answer.error?.details?.name);
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <div class=${'drop' + (over ? ' over' : '')} onDragOver=${(e) => {
@@ -105,14 +119,16 @@ function Test({ card, given }) {
       ${card.trial && html`<div class="row"><button class="button" onClick=${tryIt}>${t('Try with example data')}</button>${trial && html` <span class="caution" role="status" data-trial>▲ ${t('Example: data and conditions of {name}', { name: trial.name })}</span>`}</div>`}
       <h2><label for="table">${t('or paste the table')}</label></h2>
       <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => own(e.target.value)}></textarea>
+      ${!tableKept && html`<p class="message caution" role="status">▲ ${t('This table is too large to be kept here: it is gone after a reload.')}</p>`}
       <${Columns} columns=${columns} table=${table} change=${setTable} />
+      <${Rows} table=${table} change=${setTable} />
       <p class="small dim">${t('The first line names the columns with their units:')} <code>${example}</code></p>
-      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${fields(card, conditions).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues(changed(values, p, text))} problem=${wrong?.name === p.name ? answer.error.message : ''} />`)}</form></section>
+      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${fields(card, shown).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues(changed(values, p, text))} problem=${wrong?.name === p.name ? answer.error.message : ''} />`)}</form></section>
     <section aria-label=${t('Believe')} aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
       ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       ${!answer.data && !answer.error && html`<p class="dim">${t('Parameters with their 95 % intervals appear here.')}</p>`}
-      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} />`}</div>
+      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} table=${table} leave=${(point) => setTable(toggled(table, point, answer.data.kept.length))} />`}</div>
       <p class="small dim">${card.citation}</p></section>`;
 }
 
@@ -142,24 +158,65 @@ const heading = (cell) => {
   return { name: name.toLowerCase().replace(/[ -]/g, '_'), unit: one ?? other ?? '' };
 };
 
+const bared = (text) =>
+  text
+    .normalize('NFD')
+    .replace(/[\u0300-\u036f]/g, '')
+    .toLowerCase()
+    .replace(/[\s\-'’]+/g, '_');
+/** Whether a heading is a column's name, or its label in either language. */
+const means = (cell, p) => [p.name, ...(p.headings || [])].includes(bared(heading(cell).name));
+
+/** The rows of values under the heading: where they are, and whether they are left out (a # before them). */
+function rowsOf(table) {
+  const head = headOf(table);
+  if (!head) return [];
+  return head.lines
+    .map((line, at) => ({
+      at,
+      out: line.trimStart().startsWith('#'),
+      text: line.replace(/^\s*#\s*/, '').trim(),
+    }))
+    .filter(({ at, text }) => at >= head.at + (head.bare ? 0 : 1) && /^[-+−.,\d]/.test(text));
+}
+const flipped = (table, { at, out, text }) => {
+  const lines = table.split('\n');
+  lines[at] = out ? text : `# ${text}`;
+  return lines.join('\n');
+};
+/** The table with a point of the fit left out; unchanged where points and rows do not match one for one. */
+function toggled(table, point, points) {
+  const used = rowsOf(table).filter((row) => !row.out);
+  return used.length === points && used[point] ? flipped(table, used[point]) : table;
+}
+const leftOutAtStart = (kept) => {
+  const first = kept.indexOf(true);
+  return first > 0 && kept.slice(first).every(Boolean) ? first : 0;
+};
+
+/** Every row with a tick: those without one do not take part in the fit. */
+function Rows({ table, change }) {
+  const rows = rowsOf(table);
+  if (!rows.length) return null;
+  const out = rows.filter((row) => row.out).length;
+  return html`<details class="rows" data-rows><summary>${t('Points')} <span class="dim">${rows.length}</span>${out > 0 && html` <span class="caution" data-left-out>${t('{count} left out by you', { count: out })}</span>`}</summary>
+    <div class="scroll" tabindex="0" role="group" aria-label=${t('Points')}>${rows.map((row) => html`<label class="choice line small"><input type="checkbox" checked=${!row.out} onChange=${() => change(flipped(table, row))} /> <span class=${row.out ? 'dim' : ''}>${row.text}</span></label>`)}</div></details>`;
+}
+
 /** Which column of the table is what, in which unit; a choice rewrites the first line of the table. */
 function Columns({ columns, table, change }) {
   const head = headOf(table);
   if (!head) return null;
   const set = (p, place, unit) => {
     const cells = head.cells.map((cell, i) =>
-      i === place
-        ? `${p.name}${unit ? ` [${unit}]` : ''}`
-        : heading(cell).name === p.name
-          ? `(${cell})`
-          : cell,
+      i === place ? `${p.name}${unit ? ` [${unit}]` : ''}` : means(cell, p) ? `(${cell})` : cell,
     );
     const lines = [...head.lines];
     lines.splice(head.at, head.bare ? 0 : 1, cells.join(head.mark));
     change(lines.join('\n'));
   };
-  return html`<h2>${t('Which column is what')}</h2>${columns.map((p) => {
-    const place = head.bare ? -1 : head.cells.findIndex((cell) => heading(cell).name === p.name);
+  return html`<div class="mapping"><h2>${t('Which column is what')}</h2>${columns.map((p) => {
+    const place = head.bare ? -1 : head.cells.findIndex((cell) => means(cell, p));
     const unit = place < 0 ? '' : heading(head.cells[place]).unit;
     const usual = p.units?.[0]?.unit === 'dimensionless' ? '' : p.units?.[0]?.unit || '';
     return html`<div class="field" key=${p.name}><label for=${'column-' + p.name}>${p.label} <span class="symbol" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} />${!p.required && html` <span class="small dim">${t('optional')}</span>`}</label>
@@ -170,25 +227,10 @@ function Columns({ columns, table, change }) {
         html`<select aria-label=${t('Unit of {name}', { name: p.label })} value=${unit} disabled=${place < 0} onChange=${(e) => set(p, place, e.target.value)}>
         ${!p.units.some((u) => u.unit === unit) && html`<option value=${unit} selected>${unit || '—'}</option>`}${p.units.map((u) => html`<option value=${u.unit} selected=${u.unit === unit}>${u.label || '1'}</option>`)}</select>`
       }</div></div>`;
-  })}`;
+  })}</div>`;
 }
 
-/** The fit as a table of a case file: the line then takes what the test gave. */
-function asCase(data, values) {
-  const quoted = (text) => JSON.stringify(String(text));
-  const given = Object.entries(values).filter(([, value]) => value !== '' && value !== undefined);
-  const name = data.card.split('.')[1];
-  return [
-    `[fits.${name}]`,
-    `test = ${quoted(data.card)}`,
-    'data = "data.csv"',
-    `conditions = { ${given.map(([key, value]) => `${key} = ${quoted(value)}`).join(', ')} }`,
-    `gives = { ${Object.keys(data.parameters)
-      .map((key) => `"UNIT.${key}" = ${quoted(key)}`)
-      .join(', ')} }`,
-  ].join('\n');
-}
-
+/** Residuals by themselves, where the chart has no room of its own for them. */
 const residuals = (data) => ({
   data: [
     {
@@ -196,29 +238,55 @@ const residuals = (data) => ({
       mode: 'markers',
       x: data.residuals.map((_, i) => i + 1),
       y: data.residuals,
-      marker: { color: '#0b6e6e', symbol: data.kept.map((kept) => (kept ? 'circle' : 'circle-open')) },
+      name: t('residuals'),
+      marker: {
+        color: data.kept.map((kept) => (kept ? '#1c2430' : 'white')),
+        size: 6,
+        line: { color: '#1c2430', width: 1.5 },
+      },
     },
   ],
   layout: {
+    template: data.chart.layout.template,
     height: 240,
     margin: { l: 70, r: 15, t: 10, b: 45 },
-    plot_bgcolor: 'white',
     xaxis: { title: { text: t('point') }, dtick: Math.ceil(data.residuals.length / 12) },
-    yaxis: { title: { text: t('measured less model (SI)') }, zeroline: true, zerolinecolor: '#1c2430' },
+    yaxis: {
+      title: { text: `${t('measured − model')}${data.residual_unit && ` / ${data.residual_unit}`}` },
+      zeroline: true,
+      zerolinecolor: '#1c2430',
+    },
   },
 });
 
-function Fitted({ data, values }) {
+/** The point of the fit that a mark of the chart stands for; null where the chart shows something else. */
+function pointOf(mark, data) {
+  const { x, type } = mark.data;
+  const places = data.kept.map((_, i) => i);
+  const traces = [places, places.filter((i) => data.kept[i]), places.filter((i) => !data.kept[i])];
+  const shown = type === 'scatter' && mark.data.mode?.includes('markers') && decoded(x);
+  const found = shown && traces.find((trace) => trace.length === shown.length);
+  return found ? found[mark.pointIndex] : null;
+}
+
+function Fitted({ data, values, table, leave }) {
+  const mark = (found) => {
+    const point = pointOf(found, data);
+    if (point !== null) leave(point);
+  };
+  const apart = data.residuals?.length > 0 && !Array.isArray(data.residuals[0]) && !data.chart.layout.yaxis2;
   const save = () => {
     const { chart: _chart, ...rest } = data;
     download(`${data.card}.json`, JSON.stringify(rest, null, 1), 'application/json');
   };
-  return html`<div class="wide"><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value')}</th><th class="n" scope="col">${t('standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th></tr></thead>
-    <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}${row.unit && html` <span class="dim">/ ${row.unit}</span>`}</td><td class="n">${row.derived ? row.value : html`<strong>${row.value}</strong>`}</td><td class="n">${row.error}</td><td class="n wrap">${row.interval}</td></tr>`)}</tbody></table></div>
+  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Parameters')}><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value ± standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th></tr></thead>
+    <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}${row.unit && html` <span class="dim">/ ${row.unit}</span>`}</td><td class="n">${row.derived ? row.together : html`<strong>${row.together}</strong>`}</td><td class="n">${row.between}</td></tr>`)}</tbody></table></div>
     ${data.flags.map((flag) => html`<p class="message caution">${flag.message || flag}</p>`)}
-    ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} />`}
-    ${data.residuals?.length > 0 && !Array.isArray(data.residuals[0]) && html`<h2>${t('Residuals')}</h2><${Plot} figure=${residuals(data)} label=${t('Residuals')} />`}
-    <p class="small dim">${data.statistics_shown}</p>
-    <details><summary>${t('Use in a line')}</summary><p class="small">${t('Put this into the case file, with the table saved beside it as data.csv, and write the name of the unit instead of UNIT.')}</p><pre>${asCase(data, values)}</pre></details>
+    ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} name=${data.card} onMark=${mark} />`}
+    ${apart && html`<h2>${t('Residuals')}</h2><${Plot} figure=${residuals(data)} label=${t('Residuals')} files=${false} onMark=${mark} />`}
+    <p class="small dim">${t('Click a point to leave it out of the fit.')}</p>
+    <details><summary>${t('Statistics')}</summary><table class="small" data-statistics><tbody>${data.statistics_rows.map(([label, text]) => html`<tr><td>${label}</td><td class="n">${text}</td></tr>`)}</tbody></table></details>
+    ${data.remarks.map((text) => html`<p class="small dim">${text}</p>`)}
+    <${UseInLine} data=${data} values=${values} table=${table} />
     <button class="button" onClick=${save}>${t('Download the result')}</button>`;
 }

@@ -1,4 +1,4 @@
-// Lines: open or write a case file, edit it through forms made from the declarations, solve it, click through units and streams, compare, report.
+// Lines: build or open a case, work on its diagram and forms, see it solved after each step, compare, report.
 import {
   html,
   t,
@@ -12,15 +12,37 @@ import {
   replaceLink,
   download,
   stoppable,
+  settings,
   Working,
 } from './core.js';
-import { Plot } from './plot.js';
-import { caseAt, keepDraft, packed } from './drafts.js';
-import { Field } from './form.js';
+import { caseAt, drafted, keepDraft, packed } from './drafts.js';
+import { Editor } from './line_editor.js';
+import { Forms, Specifications, Substances } from './line_forms.js';
+import { NewLine } from './line_new.js';
+import { Outcome } from './line_outcome.js';
+import { Palette } from './line_palette.js';
+import { Panel } from './line_panel.js';
+import { Sheet } from './line_sheet.js';
 
 const MOST_KEPT = 2;
+const STEPS = 100; // that can be taken back
 const NEW = 'computer:line.toml'; // the place of a text that is no file yet
+const NOTHING = { sort: '', name: '' };
 const address = (path) => `/api/workspace/${path.split('/').map(encodeURIComponent).join('/')}`;
+
+/** The place of a line that was just begun, by its title; one that is there already is left alone. */
+function freePlace(title) {
+  const name =
+    title
+      .trim()
+      .toLowerCase()
+      .replace(/[^\p{L}\p{N}]+/gu, '-')
+      .replace(/^-|-$/g, '') || 'line';
+  for (let n = 1; ; n += 1) {
+    const place = `computer:${name}${n > 1 ? '-' + n : ''}.toml`;
+    if (drafted(place) === null) return place;
+  }
+}
 
 export function Lines({ state }) {
   const [list, setList] = useState(null);
@@ -28,6 +50,7 @@ export function Lines({ state }) {
   const [place, setPlace] = useState('');
   const [text, setText] = useState('');
   const [past, setPast] = useState([]);
+  const [future, setFuture] = useState([]);
   const [outcome, setOutcome] = useState(null);
   const [solved, setSolved] = useState('');
   const [typing, setTyping] = useState(false);
@@ -38,11 +61,16 @@ export function Lines({ state }) {
   const [carried, setCarried] = useState('');
   const [taken, setTaken] = useState(false);
   const [kept, setKept] = useState([]);
+  const [making, setMaking] = useState(false);
+  const [palette, setPalette] = useState(null);
+  const [chosen, choose] = useState(NOTHING);
+  const [writing, setWriting] = useState(false);
   const stop = useRef(null);
   const latest = useRef('');
   const saved = useRef('');
   const where = useRef('');
   const waiting = useRef(0);
+  const across = useRef(5);
   const due = useRef(new Map());
   const written = useRef(Promise.resolve());
   const files = () =>
@@ -70,21 +98,35 @@ export function Lines({ state }) {
     where.current = next;
     setPlace(next);
   };
-  const shown = (next) => {
+  /** The text and its forms; gives them, or null where the text cannot be read. */
+  const shown = async (next) => {
     latest.current = next;
     setText(next);
-    ask('/api/case/form', { case: next }).then(
-      (found) => {
-        if (latest.current === next) setForm(found);
-      },
-      () => setForm(null),
-    );
+    try {
+      const found = await ask('/api/case/form', { case: next, across: across.current });
+      if (latest.current === next) setForm(found);
+      return found;
+    } catch {
+      if (latest.current === next) {
+        setForm(null);
+        setWriting(true);
+      }
+      return null;
+    }
   };
-  const change = (next) => {
+  /** Solve in a moment what is whole; what is not says what it needs. */
+  const soon = (next, found) => {
+    clearTimeout(waiting.current);
+    if (!found || found.missing.length) return;
+    waiting.current = setTimeout(() => solve(next), 400);
+  };
+  const change = async (next) => {
     if (!where.current) settle(NEW);
-    setPast((before) => [...before.slice(-50), latest.current]);
-    shown(next);
+    setPast((before) => [...before.slice(1 - STEPS), latest.current]);
+    setFuture([]);
+    const found = shown(next);
     follow(next);
+    soon(next, await found);
   };
   const open = async (wanted, link = '') => {
     if (!wanted) return;
@@ -95,16 +137,20 @@ export function Lines({ state }) {
         setKept(recall('compared ' + wanted, []));
         setOutcome(null);
         setPast(found.changed ? [found.saved] : []);
+        setFuture([]);
+        choose(NOTHING);
+        setPalette(null);
       }
       settle(wanted);
       saved.current = found.saved;
       setPath(wanted.slice(wanted.indexOf(':') + 1));
       setError(null);
       setTaken(false);
+      setMaking(false);
       setTold(found.changed ? t('With the changes of last time; Undo takes them back.') : '');
-      shown(found.text);
+      const forms = await shown(found.text);
       follow(found.text);
-      solve(found.text);
+      if (!forms?.missing.length) solve(found.text);
     } catch (problem) {
       setError(problem);
     }
@@ -137,18 +183,44 @@ export function Lines({ state }) {
         setSolved(given);
       }
     });
+  /** One change after the other, each on the text that the one before it left. */
+  const next = (work) => {
+    const made = written.current.then(work);
+    written.current = made.catch(() => {});
+    return made;
+  };
   const edit = async (table, name, key, value) => {
     try {
       const found = await ask('/api/case/edit', { case: latest.current, table, name, key, text: value });
-      change(found.case);
       setTyping(false);
-      clearTimeout(waiting.current);
-      waiting.current = setTimeout(() => solve(found.case), 400);
+      await change(found.case);
     } catch (problem) {
       setError(problem);
     }
   };
-  /** What is typed waits a moment before it goes into the case, one change after the other; whoever takes the case along takes all of it. */
+  /** A step of building; gives the name of what came to be, or true, and nothing where it was refused. */
+  const build = async (operation, given) => {
+    await complete();
+    return next(async () => {
+      const before = form;
+      setError(null);
+      try {
+        const found = await ask('/api/case/build', { case: latest.current, operation, arguments: given });
+        await change(found.case);
+        const now = await ask('/api/case/form', { case: found.case, across: across.current });
+        const fresh = (table) => Object.keys(now[table]).find((name) => !(name in (before?.[table] || {})));
+        return operation === 'add_unit' || operation === 'rename'
+          ? fresh('units') || fresh('feeds') || true
+          : operation === 'add_feed'
+            ? fresh('feeds') || true
+            : true;
+      } catch (problem) {
+        setError(problem);
+        return null;
+      }
+    });
+  };
+  /** What is typed waits a moment before it goes into the case; whoever takes the case along takes all of it. */
   const later = (...what) => {
     const spot = what.slice(0, 3).join(' ');
     setTyping(true);
@@ -162,18 +234,53 @@ export function Lines({ state }) {
     return open;
   };
   const complete = () => {
-    for (const { what } of drop()) written.current = written.current.then(() => edit(...what));
+    for (const { what } of drop()) next(() => edit(...what));
     return written.current;
   };
   const typedIn = { later, waits: (...spot) => due.current.has(spot.join(' ')) };
-  const undo = () => {
+  const step = async (from, setFrom, setTo) => {
+    if (!from.length) return;
     drop();
-    const before = past.at(-1);
-    setPast(past.slice(0, -1));
+    const there = from.at(-1);
+    setFrom(from.slice(0, -1));
+    setTo((before) => [...before, latest.current]);
     setTyping(false);
-    shown(before);
-    follow(before);
-    if (outcome) solve(before);
+    setError(null);
+    const found = shown(there);
+    follow(there);
+    soon(there, await found);
+  };
+  const undo = () => step(past, setPast, setFuture);
+  const redo = () => step(future, setFuture, setPast);
+  useEffect(() => {
+    const key = (e) => {
+      if (!(e.ctrlKey || e.metaKey) || e.target.matches?.('input, textarea')) return;
+      const letter = e.key.toLowerCase();
+      if (letter === 'z' && !e.shiftKey) undo();
+      else if (letter === 'y' || letter === 'z') redo();
+      else return;
+      e.preventDefault();
+    };
+    addEventListener('keydown', key);
+    return () => removeEventListener('keydown', key);
+  });
+  const make = async (values) => {
+    setError(null);
+    try {
+      const found = await ask('/api/case/build', { operation: 'begin', arguments: values });
+      const begun = freePlace(values.title);
+      keepDraft(begun, found.case);
+      await open(begun);
+      setPalette({ origin: Object.keys((await ask('/api/case/form', { case: found.case })).feeds)[0] });
+    } catch (problem) {
+      setError(problem);
+    }
+  };
+  const add = async (model) => {
+    const origin = palette.origin || '';
+    setPalette(null);
+    const made = await build('add_unit', { model, origin });
+    if (made) choose({ sort: 'unit', name: made });
   };
   const save = async (replace) => {
     try {
@@ -211,18 +318,31 @@ export function Lines({ state }) {
     await complete();
     location.hash = link('studies', where.current, { case: await follow(latest.current) });
   };
-  const old = outcome && (busy || error || typing || text !== solved);
+  const wider = (count) => {
+    if (count === across.current) return;
+    across.current = count;
+    if (latest.current) shown(latest.current);
+  };
+  const old = Boolean(outcome && (busy || error || typing || text !== solved));
+  const cases = outcome ? [...kept, { ...outcome, form }] : [];
+  const missing = form?.missing || [];
+  const labels = Object.fromEntries(
+    (form?.ends.origins || []).map((end) => [end.stream, end.stream === end.value ? end.label : undefined]),
+  );
+  const tools = html`<button class="button" disabled=${busy || !outcome || missing.length > 0} onClick=${report}>${t('Report')}</button>
+    <button class="button" disabled=${old || !outcome || kept.length >= MOST_KEPT} onClick=${() => compare([...kept, { units: outcome.units, form }])}>${t('Keep to compare')}</button>
+    <a class="button" onClick=${study} href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`;
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
-    <div class="row"><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
+    <div class="row"><button class="button ${text ? '' : 'main'}" onClick=${() => setMaking(true)}>${t('New line')}</button><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
       ${place.startsWith('computer:') && html`<option value=${place} selected>${place.slice(9)}</option>`}
       ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${f}</option>`)}</optgroup>`}
-      ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select>
-      <button class="button main" disabled=${!text || busy} onClick=${async () => {
-        await complete();
-        clearTimeout(waiting.current);
-        solve(latest.current);
-      }}>${t('Solve')}</button>
-      <button class="button" disabled=${!past.length} onClick=${undo}>${t('Undo')}</button></div>
+      ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select></div>
+    <div class="row"><button class="button main" disabled=${!text || busy} onClick=${async () => {
+      await complete();
+      clearTimeout(waiting.current);
+      solve(latest.current);
+    }}>${t('Solve')}</button>
+      <button class="button" disabled=${!past.length} onClick=${undo}>${t('Undo')}</button><button class="button" disabled=${!future.length} onClick=${redo}>${t('Redo')}</button></div>
     <div class="row"><label class="button">${t('Open from this computer')}<input class="hidden" type="file" accept=".toml" aria-label=${t('Open from this computer')} onChange=${(e) => read(e.target.files)} /></label>
       <button class="button" disabled=${!text} onClick=${async () => {
         await complete();
@@ -243,160 +363,37 @@ export function Lines({ state }) {
       }} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${() => save(place === 'workspace:' + path)}>${t('Save')}</button></div>
       ${taken && html`<div class="row caution" role="alert">▲ ${t('There is another file of this name: {path}', { path })} <button class="button" onClick=${() => save(true)}>${t('Overwrite it')}</button> <button class="button" onClick=${() => setTaken(false)}>${t('Keep it')}</button></div>`}`
     }<span class="small dim" role="status">${told}</span>
-    ${form && html`<${Forms} form=${form} typedIn=${typedIn} problem=${error?.details} message=${error?.message} />`}
-    <details open=${!form}><summary>${t('Case file')}</summary>
-    <textarea id="case" aria-label=${t('Case file')} rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${(e) => change(e.target.value)} onInput=${(e) => setText(e.target.value)}></textarea></details></section>
+    ${form && html`<${Substances} form=${form} build=${build} /><${Forms} form=${form} typedIn=${typedIn} build=${build} problem=${error?.details} message=${error?.message} /><${Specifications} key=${place} form=${form} build=${build} />`}
+    <details open=${writing} onToggle=${(e) => setWriting(e.target.open)}><summary>${t('Case file')}</summary><${Editor} text=${text} write=${setText} done=${change} /></details></section>
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
+    ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
+    ${text && html`<div class="row spread"><h2 class="first title">${form?.title || outcome?.title || ''}</h2><div class="row">${tools}</div></div>`}
+    ${
+      form &&
+      html`<div class="row"><button class="button" onClick=${() => setPalette({ origin: '' })}>${t('Add equipment')}</button><button class="button" onClick=${async () => {
+        const made = await build('add_feed', {});
+        if (made) choose({ sort: 'stream', name: made });
+      }}>${t('Add a feed')}</button></div>`
+    }
     <${Working} busy=${busy} cancel=${() => {
       stop.current?.abort();
       setBusy(false);
     }} job=${() => stop.current?.signal.job} text=${t('Working… a new line takes a little while the first time.')} />
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
-    ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`}
-    ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
+    ${missing.length > 0 && html`<div class="message caution" data-missing>${missing.map((one) => html`<p>▲ ${one}</p>`)}</div>`}
     ${
-      outcome &&
-      html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} form=${form} typedIn=${typedIn} clear=${() => compare([])} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
-      <button class="button" disabled=${Boolean(old) || kept.length >= MOST_KEPT} onClick=${() => compare([...kept, { units: outcome.units, form }])}>${t('Keep to compare')}</button>
-      <a class="button" onClick=${study} href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`} /></div>`
-    }</section></main>`;
-}
-
-/** Feeds and units, each a closed form that opens when asked. */
-function Forms({ form, typedIn, problem, message }) {
-  const groups = [
-    ['feeds', t('Feeds'), form.feeds],
-    ['units', t('Units'), form.units],
-  ];
-  return groups.map(
-    ([table, label, items]) =>
-      Object.keys(items).length > 0 &&
-      html`<h2>${label}</h2>${Object.entries(items).map(
-        ([
-          name,
-          item,
-        ]) => html`<details key=${table + name} open=${problem?.unit === name} data-form=${name}><summary><strong>${name}</strong> <span class="dim">${item.title || ''}</span></summary>
-    <${ItemForm} table=${table} name=${name} item=${item} typedIn=${typedIn} wrong=${problem?.unit === name ? problem.name : ''} message=${message} /></details>`,
-      )}`,
-  );
-}
-
-/** The form of one unit or feed. */
-function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'form' }) {
-  const [typed, setTyped] = useState({});
-  useEffect(
-    () =>
-      setTyped((before) =>
-        Object.fromEntries(Object.entries(before).filter(([key]) => typedIn.waits(table, name, key))),
-      ),
-    [JSON.stringify(item.values)],
-  );
-  const set = (key, value) => {
-    setTyped((before) => ({ ...before, [key]: value }));
-    typedIn.later(table, name, key, value);
-  };
-  if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
-  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}
-    ${item.limits?.length > 0 && html`<details data-limits=${name}><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${item.limits.map((limit) => html`<tr><td>${limit.name}</td><td>${limit.allowed}</td><td class="dim">${limit.source}</td></tr>`)}</tbody></table></div></details>`}</form>`;
-}
-
-function Outcome({ data, kept, form, typedIn, tools, clear }) {
-  const [chosen, choose] = useState({ sort: '', name: '' });
-  const panel = useRef(null);
-  const pick = (event) => {
-    if (event.type === 'keydown' && event.key !== 'Enter' && event.key !== ' ') return;
-    const found = event.target.closest?.('[data-unit],[data-stream]');
-    if (!found) return;
-    event.preventDefault();
-    choose(
-      found.dataset.unit
-        ? { sort: 'unit', name: found.dataset.unit }
-        : { sort: 'stream', name: found.dataset.stream },
-    );
-  };
-  const cases = [...kept, { ...data, form }];
-  return html`<div class="row spread"><h2 class="first">${data.title}</h2><div class="row">${tools}</div></div>
-    <p class="ok">● ${data.audit.text}</p><div>
-    <div class="diagram" tabindex="0" role="region" aria-label=${t('Flow diagram')} onClick=${pick} onKeyDown=${pick} dangerouslySetInnerHTML=${{ __html: data.diagram }} />
-    <p class="small dim">${t('Click a unit or a stream, or reach it with the tabulator key and press Enter.')}</p>
-    <div ref=${panel} aria-live="polite">${chosen.sort === 'stream' && data.streams[chosen.name] && html`<div class="card" data-panel=${chosen.name}><h3>${chosen.name}</h3><${StreamPanel} stream=${data.streams[chosen.name]} /></div>`}
-    ${
-      chosen.sort === 'unit' &&
-      data.units[chosen.name] &&
-      html`<div class="card columns" data-panel=${chosen.name}><div><${UnitPanel} name=${chosen.name} unit=${data.units[chosen.name]} cases=${cases} /></div>
-      ${form?.units[chosen.name] && html`<div><${ItemForm} key=${chosen.name} table="units" name=${chosen.name} item=${form.units[chosen.name]} typedIn=${typedIn} spot="panel" /></div>`}</div>`
-    }</div>
-    ${data.flags.map((flag) => html`<p class="message caution"><strong>${flag.unit}</strong> ${flag.message}</p>`)}
-    ${kept.length > 0 && html`<${Comparison} cases=${cases} clear=${clear} />`}
-    <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th>${data.stream_table.heads.map((head) => html`<th class="n" scope="col">${head}</th>`)}</tr></thead>
-      <tbody>${data.stream_table.rows.map(([name, cells]) => html`<tr><td>${name}</td>${cells.map((text) => html`<td class="n">${text}</td>`)}</tr>`)}</tbody></table></div>
-    <h2>${t('Equipment')}</h2><div class="columns">${Object.entries(data.units).map(([name, unit]) => html`<div class="card"><${UnitPanel} name=${name} unit=${unit} cases=${cases} /></div>`)}</div></div>`;
-}
-
-/** What was changed between the kept cases, and what it did to the figures. */
-function Comparison({ cases, clear }) {
-  const inputs = new Map();
-  const figures = new Map();
-  cases.forEach((c, i) => {
-    for (const [sort, items] of [
-      ['feeds', c.form?.feeds],
-      ['units', c.form?.units],
-    ]) {
-      for (const [name, item] of Object.entries(items || {})) {
-        for (const p of item.parameters)
-          put(inputs, `${sort}.${name}.${p.name}`, `${name}: ${p.label}`, i, item.values[p.name] ?? '—');
-      }
+      !text &&
+      !making &&
+      html`<h2 class="first">${t('Start a new line')}</h2><p>${t('Choose what enters, put equipment behind it, and see it solved after each step.')}</p><button class="button main" onClick=${() => setMaking(true)}>${t('New line')}</button>
+    <h2>${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`
     }
-    for (const [name, unit] of Object.entries(c.units))
-      for (const [key, row] of Object.entries(unit.results))
-        put(figures, `${name}.${key}`, `${name}: ${row.label}`, i, row.text);
-  });
-  const differ = ([, row]) => cases.some((_, i) => row.values[i] !== row.values[0]);
-  const body = (rows, strong) =>
-    [...rows]
-      .filter(differ)
-      .map(
-        ([key, row]) =>
-          html`<tr key=${key} class=${strong ? '' : 'dim'}><td>${row.label}</td>${cases.map((_, i) => html`<td class="n">${strong ? html`<strong>${row.values[i] ?? '—'}</strong>` : (row.values[i] ?? '—')}</td>`)}</tr>`,
-      );
-  const rows = [body(inputs, false), body(figures, true)];
-  return html`<h2>${t('Comparison')}</h2>${
-    rows.flat().length === 0
-      ? html`<p class="small dim">${t('Nothing differs yet: change a parameter.')}</p>`
-      : html`<div class="wide" tabindex="0" role="region" aria-label=${t('Comparison')}><table data-comparison><thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${t('case {number}', { number: i + 1 })}</th>`)}</tr></thead><tbody>${rows}</tbody></table></div>`
-  }
-    <div class="row"><button class="button" onClick=${clear}>${t('Clear')}</button></div>`;
-}
-
-function put(rows, key, label, index, value) {
-  if (!rows.has(key)) rows.set(key, { label, values: [] });
-  rows.get(key).values[index] = value;
-}
-
-function UnitPanel({ name, unit, cases }) {
-  return html`<h3>${name} <span class="dim">${unit.title || unit.model}</span></h3><div class="wide" tabindex="0" role="region" aria-label=${name}><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
-    ${Object.entries(unit.results).map(([figure, row]) => html`<tr><td>${row.label || figure.replaceAll('_', ' ')}</td>${cases.map((c) => html`<td class="n" data-figure=${name + '.' + figure}>${c.units[name]?.results[figure]?.text ?? '—'}</td>`)}</tr>`)}
-    ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n" colspan=${cases.length}>${c.text} <span class="dim">(${c.allowed})</span></td></tr>`)}</tbody></table></div>`;
-}
-
-function StreamPanel({ stream: s }) {
-  const figure = s.size &&
-    s.size.median !== null && {
-      data: [
-        {
-          type: 'scatter',
-          mode: 'lines',
-          line: { shape: 'hv', color: '#b7791f' },
-          x: s.size.boundaries.map((x) => x * 1e6),
-          y: [...s.size.mass_fractions, 0].map((y) => y * 100),
-        },
-      ],
-      layout: {
-        height: 260,
-        margin: { l: 55, r: 15, t: 10, b: 45 },
-        xaxis: { type: 'log', dtick: 1, title: { text: t('particle diameter') + ' / µm' } },
-        yaxis: { title: { text: '% ' + t('by mass') } },
-      },
-    };
-  return html`<div class="columns"><table><tbody>${s.shown.map(([label, text]) => html`<tr><td>${label}</td><td class="n">${text}</td></tr>`)}</tbody></table>${figure && html`<${Plot} figure=${figure} label=${t('Particle sizes')} />`}</div>`;
+    ${
+      form &&
+      html`<div class="sheet ${old ? 'stale' : ''}"><${Sheet} svg=${form.diagram} streams=${outcome?.streams} old=${old || missing.length > 0} chosen=${chosen} choose=${choose} put=${(origin) => setPalette({ origin })} connect=${(origin, target) => build('connect', { origin, target })} setAcross=${wider} /></div>
+    <p class="small dim">${t('Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.')}</p>`
+    }
+    ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
+    <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} />`}</div>
+    ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
+    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} /></div>`}</section></main>`;
 }

@@ -50,6 +50,7 @@ const DARK = {
   '#6b46c1': '#a78bee',
   '#97266d': '#de7fb9',
   '#2c5282': '#7aa5dd',
+  'rgba(11,110,110,0.08)': 'rgba(79,179,174,0.16)',
   'rgba(255,255,255,0.8)': 'rgba(26,33,41,0.8)',
   'rgba(255,255,255,0.85)': 'rgba(26,33,41,0.85)',
 };
@@ -83,28 +84,54 @@ function colored({ data, layout }) {
 }
 
 let printing = false;
+const PAPER = 640; // px of a chart on A4
+const drawn = new Set(); // charts on the page, each with the way to draw it anew
 for (const [event, now] of [
   ['beforeprint', true],
   ['afterprint', false],
 ])
   addEventListener(event, () => {
     printing = now;
-    dispatchEvent(new Event('granum-theme'));
+    drawn.forEach((draw) => draw(true)); // at once: the browser does not wait
   });
 
-/** In a narrow place the heads of a table take several lines. */
-const shareOf = (table) => Math.min((90 + 24 * table.cells.values[0].length) / 650, 0.6);
-const tabled = (data, width) =>
-  data.map((trace) =>
-    trace.type === 'table' && width < NARROW
-      ? {
-          ...trace,
-          domain: { x: [0, 1], y: [0, shareOf(trace)] },
-          header: { ...trace.header, font: { size: 10 } },
-          cells: { ...trace.cells, font: { size: 10 } },
-        }
-      : trace,
-  );
+/** A chart without the tables in it, which the page shows under it: their room goes to the axes. */
+function untabled({ data, layout }) {
+  const table = data.find((trace) => trace.type === 'table');
+  if (!table) return { data, layout };
+  const taken = 50 + 25 * table.cells.values[0].length;
+  return {
+    data: data.filter((trace) => trace.type !== 'table'),
+    layout: {
+      ...layout,
+      height: (layout.height || 450) - taken,
+      yaxis: { ...layout.yaxis, domain: [0, 1] },
+    },
+  };
+}
+
+/** A table of a chart as one of the page. */
+function Tabled({ trace, label }) {
+  const [heads, columns] = [trace.header.values, trace.cells.values];
+  return html`<div class="wide" tabindex="0" role="region" aria-label=${label}><table class="small" aria-label=${label}><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: head }} />`)}</tr></thead><tbody>${columns[0].map((_, i) => html`<tr>${columns.map((column) => html`<td class="n">${column[i]}</td>`)}</tr>`)}</tbody></table></div>`;
+}
+
+/** The title of an upright axis in two lines where one is too long for it. */
+function upright(axis, height) {
+  const text = axis?.title?.text;
+  const bare = text?.replace(/<[^>]*>/g, '');
+  if (!bare || bare.length * 7.5 < height) return axis;
+  const breaks = [...text.matchAll(/ (?=<i>|\/ |\(|\S)/g)].map((found) => found.index);
+  const free = breaks.filter((at) => (text.slice(0, at).match(/</g) ?? []).length % 2 === 0); // in no tag
+  const middle = free.toSorted((a, b) => Math.abs(a - text.length / 2) - Math.abs(b - text.length / 2))[0];
+  return middle
+    ? {
+        ...axis,
+        automargin: true,
+        title: { ...axis.title, text: `${text.slice(0, middle)}<br>${text.slice(middle + 1)}` },
+      }
+    : { ...axis, automargin: true };
+}
 
 /** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
 function fitted({ layout, data }, width) {
@@ -112,39 +139,53 @@ function fitted({ layout, data }, width) {
   const narrow = width < NARROW;
   const right = layout.yaxis?.side === 'right';
   const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
-  const table = narrow && data.find((trace) => trace.type === 'table');
+  const own = layout.legend && ['x', 'y', 'orientation'].some((part) => layout.legend[part] !== undefined);
+  const above = !narrow && !own && count > 1 && count <= 6 && layout.showlegend !== false;
+  if (above) margin.t = 34;
   const legend = narrow
     ? {
         ...layout.legend,
         orientation: 'h',
         x: 0,
         xanchor: 'left',
-        y: table ? -0.03 : -0.22,
+        y: -0.22,
         yanchor: 'top',
         font: { size: 11 },
       }
-    : layout.legend;
+    : above
+      ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: 1.01, yanchor: 'bottom' } // over the plot, on nothing
+      : layout.legend;
   const axes = narrow
     ? {
         xaxis: { ...layout.xaxis, dtick: undefined, nticks: 6, tickangle: 0 },
         ...(count > 8 ? { showlegend: false } : {}),
-        ...(table && { yaxis: { ...layout.yaxis, domain: [shareOf(table) + 0.12, 1] } }),
       }
     : {};
+  const height = (layout.height || 450) - 110;
+  const upward = Object.fromEntries(
+    Object.entries({ ...layout, ...axes })
+      .filter(([part]) => /^yaxis\d*$/.test(part))
+      .map(([part, axis]) => {
+        const [low, high] = axis.domain ?? [0, 1];
+        return [
+          part,
+          upright({ ...axis, ...(narrow && !right && { automargin: true }) }, (high - low) * height),
+        ];
+      }),
+  );
   return {
     ...layout,
     title: undefined,
     width: undefined,
     autosize: true,
-    ...(table ? { height: (layout.height || 450) + 220 } : {}),
     margin,
     legend,
     ...axes,
+    ...upward,
   };
 }
 
-const axisText = (axis, fallback) =>
-  (axis?.title?.text ?? '').replace(/<[^>]*>/g, '').trim() || fallback;
+const axisText = (axis, fallback) => (axis?.title?.text ?? '').replace(/<[^>]*>/g, '').trim() || fallback;
 
 const TYPES = {
   f8: Float64Array,
@@ -166,7 +207,9 @@ function numbers({ data, layout }) {
   const y = axisText(layout.yaxis, 'y');
   const flat = (values) => Array.isArray(values) && values.every((v) => !Array.isArray(v));
   const rows = data
-    .filter((trace) => trace.hoverinfo !== 'skip' && trace.visible !== 'legendonly' && trace.visible !== false)
+    .filter(
+      (trace) => trace.hoverinfo !== 'skip' && trace.visible !== 'legendonly' && trace.visible !== false,
+    )
     .map((trace) => ({ name: trace.name ?? '', x: decoded(trace.x), y: decoded(trace.y) }))
     .filter((trace) => flat(trace.x) && flat(trace.y))
     .flatMap((trace) => trace.x.map((at, i) => [trace.name, at, trace.y[i]]))
@@ -211,9 +254,11 @@ function Files({ figure, place, name, label }) {
 const MOST_ROWS = 500;
 
 /** `files`: whether what the chart can be taken away as stands below it; where its numbers stand beside it anyway, not. */
-export function Plot({ figure, label, onPoint, files = true, name = 'granum' }) {
+export function Plot({ figure, label, onPoint, onMark, files = true, tables = true, name = 'granum' }) {
   const clicked = useRef(null);
   clicked.current = onPoint;
+  const marked = useRef(null);
+  marked.current = onMark;
   const place = useRef(null);
   const [theme, setTheme] = useState(0);
   useEffect(() => {
@@ -223,32 +268,38 @@ export function Plot({ figure, label, onPoint, files = true, name = 'granum' }) 
   }, []);
   useEffect(() => {
     let alive = true;
-    loadPlotly().then((Plotly) => {
-      if (alive && place.current && figure) {
-        const width = place.current.clientWidth;
-        const drawn = colored(figure);
-        Plotly.react(place.current, tabled(drawn.data, width), fitted(drawn, width), {
-          responsive: true,
-          displaylogo: false,
-          showSendToCloud: false,
-          plotlyServerURL: '',
-          locale: settings.language,
-          modeBarButtonsToRemove: ['toImage', 'select2d', 'lasso2d', 'autoScale2d'],
-        });
-        place.current.removeAllListeners?.('plotly_click');
-        place.current.on('plotly_click', (event) => {
-          const edge = place.current.getBoundingClientRect();
-          const { xaxis, yaxis } = place.current._fullLayout;
-          clicked.current?.(
-            xaxis.p2d(event.event.clientX - edge.left - xaxis._offset),
-            yaxis.p2d(event.event.clientY - edge.top - yaxis._offset),
-          );
-        });
-      }
-    });
+    const draw = (anew) => {
+      if (!alive || !place.current || !figure || !window.Plotly) return;
+      if (anew) window.Plotly.purge(place.current); // a width once given would stay
+      const width = printing ? PAPER : place.current.clientWidth;
+      const shown = colored(untabled(figure));
+      const layout = { ...fitted(shown, width), ...(printing && { width: PAPER }) };
+      place.current.style.height = `${layout.height ?? 450}px`; // without it a chart drawn twice falls flat when the window changes
+      window.Plotly.react(place.current, shown.data, layout, {
+        responsive: true,
+        displaylogo: false,
+        showSendToCloud: false,
+        plotlyServerURL: '',
+        locale: settings.language,
+        modeBarButtonsToRemove: ['toImage', 'select2d', 'lasso2d', 'autoScale2d'],
+      });
+      place.current.removeAllListeners?.('plotly_click');
+      place.current.on('plotly_click', (event) => {
+        marked.current?.(event.points[0]);
+        const edge = place.current.getBoundingClientRect();
+        const { xaxis, yaxis } = place.current._fullLayout;
+        clicked.current?.(
+          xaxis.p2d(event.event.clientX - edge.left - xaxis._offset),
+          yaxis.p2d(event.event.clientY - edge.top - yaxis._offset),
+        );
+      });
+    };
+    drawn.add(draw);
+    loadPlotly().then(() => draw());
     return () => {
       alive = false;
+      drawn.delete(draw);
     };
   }, [figure, theme]);
-  return html`<div class="drawn"><div class="plot" ref=${place} role="group" aria-label=${label || t('Chart')}></div></div>${files && figure && html`<${Files} figure=${figure} place=${place} name=${name} label=${label} />`}`;
+  return html`<div class="drawn"><div class="plot" ref=${place} role="group" aria-label=${label || t('Chart')}></div></div>${tables && figure?.data.filter((trace) => trace.type === 'table').map((trace) => html`<${Tabled} trace=${trace} label=${label} />`)}${files && figure && html`<${Files} figure=${figure} place=${place} name=${name} label=${label} />`}`;
 }

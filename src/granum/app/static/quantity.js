@@ -4,10 +4,10 @@ import { html, t, ask, settings, useState, useEffect, useRef } from './core.js';
 
 export const joined = ({ number, unit }) => `${number} ${unit}`.trim();
 export const inLanguage = (text) =>
-  settings.language === 'fr' && !text.includes(',') ? text.replaceAll('.', ',') : text;
+  settings.language === 'fr' && !text.includes(',') ? text.replaceAll(/\.(?=\d)/g, ',') : text;
 
 const NUMBER =
-  /[\s;,[\]]*[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,]\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
+  /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…)\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
 
 /** Text such as "1 200,5 cm2" or "2 4 8 um" cut where the unit begins; what the number and the unit mean is for the server to say. */
@@ -69,6 +69,7 @@ async function read(p, text, signal) {
     open_upper: p.open_upper,
     series: p.series || '',
     several: p.several || false,
+    interval: p.interval || false,
     units: (p.units || []).map((u) => u.unit),
   };
   return { text, ...(await ask('/api/read', asked, { signal })) };

@@ -1,15 +1,16 @@
-// One question: tick what is right, or put each item into its group; checked on request.
-import { html, t, useState } from './core.js';
+// One question: tick what is right, or put each item into its group; checked on request, kept in this browser.
+import { html, t, useKept } from './core.js';
+import { note } from './progress.js';
 
 export function Quiz({ quiz }) {
-  const [answers, setAnswers] = useState({});
-  const [checked, setChecked] = useState(false);
+  const [{ answers, checked }, keep] = useKept('quiz ' + quiz.id, { answers: {}, checked: false });
   const items = quiz.options || quiz.items;
   const right = (item, i) => (quiz.options ? Boolean(answers[i]) === item.right : answers[i] === item.group);
   const score = items.filter(right).length;
-  const set = (i, value) => {
-    setAnswers({ ...answers, [i]: value });
-    setChecked(false);
+  const set = (i, value) => keep({ answers: { ...answers, [i]: value }, checked: false });
+  const check = () => {
+    keep({ answers, checked: true });
+    note(quiz.id, 0, { right: score === items.length, answer: `${score}/${items.length}` });
   };
   const mark = (item, i) =>
     checked &&
@@ -29,7 +30,7 @@ export function Quiz({ quiz }) {
         ${quiz.groups.map((group, g) => html`<option value=${g}>${group}</option>`)}</select> ${item.text}</label> ${mark(item, i)}</div>`,
           )
     }
-    <div class="row"><button class="button" onClick=${() => setChecked(true)}>${t('Check')}</button>
+    <div class="row"><button class="button" onClick=${check}>${t('Check')}</button>
     <span role="status">${checked && t('{score} of {count} right', { score, count: items.length })}</span></div>
     ${checked && html`<p class="small">${quiz.why}</p>`}<p class="small dim">${quiz.source}</p></fieldset>`;
 }

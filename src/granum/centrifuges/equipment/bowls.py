@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import abc
 from dataclasses import KW_ONLY
-from typing import Any
+from typing import Any, ClassVar
 
 import jax.numpy as jnp
 
@@ -30,7 +30,8 @@ from granum.settling.equipment.gravity import (
     floats,
 )
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import DRIVE, driven
 
 Ends = tuple[float, float]
 THIN = 0.0999  # of the radius: the thickest wall that counts as thin
@@ -101,6 +102,11 @@ class Bowl(Unit):
     bowl_radius: Length | None = None
     wall_thickness: Length | None = None
     stress_allowed: Stress = 3e8
+
+    utilities: ClassVar[Utilities] = DRIVE
+
+    def drawn(self, inside: None, outlets: Any, figures: Any, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_drive": driven(figures.shaft_power)}
 
     @abc.abstractmethod
     def sigma(self) -> Any:

@@ -38,7 +38,8 @@ from granum.core.limits import Limit
 from granum.streams.cake_maker import CakeMaker
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import DRIVE, driven
 
 # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
 TRICKLE, THIN = 1e-15, 1e-12
@@ -114,6 +115,8 @@ class FilteringCentrifuge(CakeMaker):
     rotation_speed: RotationSpeed
     cake_resistance: CakeResistance
     void_fraction: VoidFraction
+
+    utilities: ClassVar[Utilities] = DRIVE
 
     @abc.abstractmethod
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
@@ -243,6 +246,11 @@ class FilteringCentrifuge(CakeMaker):
             "effect": figures.centrifugal_effect,
             "layer": inside.thickness,
         }
+
+    def drawn(
+        self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        return {"electric_power_drive": driven(figures.shaft_power)}
 
 
 class SetCake(FilteringCentrifuge):

@@ -325,7 +325,7 @@ class NozzleSeparator(DiscSeparating):
         }
     )
 
-    def drawn(self) -> Any:
+    def nozzle_flow(self) -> Any:
         """What the nozzles pass, m³/s."""
         return nozzle_flow_bowl(
             self.nozzle_number,
@@ -339,10 +339,10 @@ class NozzleSeparator(DiscSeparating):
     def outlets(self, inside: None, feed: Stream) -> Parted:
         sunk, floated = self.shares(feed)
         solid = feed.part(solid=over_axes(sunk, feed)).solid_volume_flow
-        thin = jnp.clip(solid / self.drawn(), 1e-12, self.sediment_solids_fraction)
+        thin = jnp.clip(solid / self.nozzle_flow(), 1e-12, self.sediment_solids_fraction)
         # Without solids the nozzles draw liquid alone.
         made = part_liquids(feed, sunk, floated, thin, self.light_solids_fraction)
-        lacking = jnp.maximum(self.drawn() - made.sediment.slurry_volume_flow, 0.0)
+        lacking = jnp.maximum(self.nozzle_flow() - made.sediment.slurry_volume_flow, 0.0)
         left = made.heavy.liquid_volume_flow
         share = jnp.where(left > 0, jnp.minimum(lacking / jnp.where(left > 0, left, 1.0), 1.0), 0.0)
         more = share * made.heavy.liquid
@@ -364,7 +364,7 @@ class NozzleSeparator(DiscSeparating):
         largest = jnp.max(jnp.where(present, jnp.asarray(feed.mixture.sizes), 0.0))
         return self.measured_parting(feed, figures) | {
             "plugging": largest / self.nozzle_diameter,
-            "drawn": self.drawn() / jnp.maximum(feed.slurry_volume_flow, 1e-300),
+            "drawn": self.nozzle_flow() / jnp.maximum(feed.slurry_volume_flow, 1e-300),
             "thick": figures.solids_volume_fraction_sediment / self.sediment_solids_fraction,
         }
 

@@ -51,7 +51,7 @@ def stokes_velocity(diameter: Any, excess: Any, viscosity: Any) -> Any:
 
 @formula(
     source="ambler1959; geankoplis2003, § 14.4",
-    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_2^2 - r_1^2)}{g\,\ln(r_2/r_1)}",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_o^2 - r_i^2)}{g\,\ln(r_o/r_i)}",
     typical=_BOWL,
     title="Sigma of a tubular bowl, full capture",
 )
@@ -73,7 +73,7 @@ def sigma_factor_tubular(
 
 @formula(
     source="mccabe2005, ch. 29; geankoplis2003, § 14.4",
-    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_2^2 - r_1^2)}{2 g\,\ln[2 r_2/(r_1 + r_2)]}",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_o^2 - r_i^2)}{2 g\,\ln[2 r_o/(r_i + r_o)]}",
     typical=_BOWL,
     title="Sigma of a tubular bowl, cut at half the layer thickness",
 )
@@ -100,7 +100,7 @@ def sigma_factor_tubular_half_thickness(
 
 @formula(
     source="ambler1959",
-    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_2^2 - r_1^2)}{g\,\ln[2 r_2^2/(r_1^2 + r_2^2)]}",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_o^2 - r_i^2)}{g\,\ln[2 r_o^2/(r_i^2 + r_o^2)]}",
     typical=_BOWL,
     title="Sigma of a tubular bowl, cut at half the flow area",
 )
@@ -128,7 +128,7 @@ def sigma_factor_tubular_half_area(
 
 @formula(
     source="ambler1959; perry2008, § 18",
-    equation=r"\Sigma = \frac{2\pi\,n\,\omega^2\,(r_2^3 - r_1^3)}{3 g\,\tan\theta}",
+    equation=r"\Sigma = \frac{2\pi\,n\,\omega^2\,(r_o^3 - r_i^3)}{3 g\,\tan\theta}",
     typical={
         "disc_number": (20, 150),
         "radius_inner": (0.03, 0.08),
@@ -171,11 +171,12 @@ def sigma_factor_disc(
 @formula(
     source="ambler1959; records2001",
     equation=(
-        r"\Sigma = \frac{2\pi\omega^2}{g}\left[L_1\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right) + "
-        r"L_2\,\frac{r_2^2 + 3 r_1 r_2 + 4 r_1^2}{8}\right]"
+        r"\Sigma = \frac{2\pi\omega^2}{g}\left[L_1\left(\tfrac34 r_o^2 + \tfrac14 r_i^2\right) + "
+        r"L_2\,\frac{r_o^2 + 3 r_i r_o + 4 r_i^2}{8}\right]"
     ),
     typical={**_BOWL, "beach_length": (0.1, 0.5)},
     title="Sigma of a scroll decanter",
+    symbols={"bowl_length": "L_1"},
 )
 def sigma_factor_scroll(
     bowl_length: Length,
@@ -199,7 +200,7 @@ def sigma_factor_scroll(
 
 @formula(
     source="ambler1959",
-    equation=r"\Sigma = \frac{V\,\omega^2}{2 g\,\ln[2 r_2/(r_1 + r_2)]}",
+    equation=r"\Sigma = \frac{V\,\omega^2}{2 g\,\ln[2 r_o/(r_i + r_o)]}",
     typical={**_BOWL, "volume": (1e-5, 1e-3)},
     title="Sigma of a bottle centrifuge",
 )
@@ -264,8 +265,9 @@ def cut_size_centrifuge(
 
 @formula(
     source="ambler1959; richardson2002, ch. 9",
+    title="Volume flow that a centrifuge clarifies",
     fitted={"reynolds": (0.0, 2.0)},
-    equation=r"Q = j\,E\,\Sigma\,\frac{d^2 (\rho_p - \rho_f)\,g}{18\,\eta}",
+    equation=r"Q = j\,E\,\Sigma\,\frac{d_p^2 (\rho_p - \rho_f)\,g}{18\,\eta}",
     typical={**_MUD, "particle_diameter": (1e-6, 1e-5)},
 )
 def volume_flow_centrifuge(
@@ -299,6 +301,12 @@ def volume_flow_centrifuge(
         "volume_flow": (1e-6, 1e-3),
     },
     title="Flow of another centrifuge at equal separation (Sigma scale-up)",
+    symbols={
+        "volume_flow": "Q_1",
+        "sigma_factor": r"\Sigma_1",
+        "sigma_factor_other": r"\Sigma_2",
+        "=volume_flow": "Q_2",
+    },
 )
 def volume_flow_other_centrifuge(
     volume_flow: VolumeFlow,
@@ -335,6 +343,14 @@ def volume_flow_other_centrifuge(
         "pool_volume_other": (0.1, 1.0),
     },
     title="Flow of another centrifuge at equal g-volume",
+    symbols={
+        "volume_flow": r"Q_1",
+        "=volume_flow": r"Q_2",
+        "centrifugal_effect": r"K_1",
+        "pool_volume": r"V_1",
+        "centrifugal_effect_other": r"K_2",
+        "pool_volume_other": r"V_2",
+    },
 )
 def volume_flow_g_volume(
     volume_flow: VolumeFlow,
@@ -356,9 +372,10 @@ def volume_flow_g_volume(
 
 @formula(
     source="svarovsky2001",
+    title="Grade efficiency of a tubular bowl",
     equation=(
-        r"E = \min\left(1,\;\frac{1 - \exp(-2 v_g\omega^2\tau/g)}{1 - (r_1/r_2)^2}\right),\quad \tau = "
-        r"\frac{\pi L (r_2^2 - r_1^2)}{Q}"
+        r"E = \min\left(1,\;\frac{1 - \exp(-2 v_t\omega^2\tau/g)}{1 - (r_i/r_o)^2}\right),\quad \tau = "
+        r"\frac{\pi L (r_o^2 - r_i^2)}{Q}"
     ),
     typical={**_BOWL, "terminal_velocity": (1e-9, 1e-7), "volume_flow": (1e-4, 1e-2)},
     output="grade_efficiency",
@@ -386,8 +403,8 @@ def grade_efficiency_tubular(
 @formula(
     source="svarovsky2001",
     equation=(
-        r"E = \min\left(1,\;\frac{\exp(2 v_g\omega^2\tau/g) - 1}{(r_2/r_1)^2 - 1}\right),\quad \tau = "
-        r"\frac{\pi L (r_2^2 - r_1^2)}{Q}"
+        r"E = \min\left(1,\;\frac{\exp(2 v_t\omega^2\tau/g) - 1}{(r_o/r_i)^2 - 1}\right),\quad \tau = "
+        r"\frac{\pi L (r_o^2 - r_i^2)}{Q}"
     ),
     typical={**_BOWL, "terminal_velocity": (1e-9, 1e-8), "volume_flow": (1e-4, 1e-2)},
     output="grade_efficiency",
@@ -420,7 +437,8 @@ def grade_efficiency_tubular_rising(
 
 @formula(
     source="svarovsky2001",
-    equation=r"E = \min(1,\; v_g\,\Sigma/Q)",
+    title="Grade efficiency of a thin layer",
+    equation=r"E = \min(1,\; v_t\,\Sigma/Q)",
     typical={"terminal_velocity": (1e-9, 1e-8), "volume_flow": (1e-4, 1e-2), "sigma_factor": (500.0, 5000.0)},
     output="grade_efficiency",
 )

@@ -39,6 +39,7 @@ _CONE = {
 
 @formula(
     source="records2001",
+    title="Stay of the solid in a scroll centrifuge",
     equation=r"t = \frac{2\pi L}{P\,\Delta\omega}",
     output="stay_time",
     typical={"basket_length": (0.2, 0.6), "scroll_pitch": (0.05, 0.15), "differential_speed": (1.0, 10.0)},
@@ -67,6 +68,7 @@ def sliding_ratio(cone_angle: QuarterTurn, friction_angle: QuarterTurn) -> Posit
 
 @formula(
     source="leung1998; records2001",
+    title="Least axial acceleration of the vibration",
     equation=r"a = \omega^2 r\,\tan(\varphi - \gamma)",
     output="vibration_acceleration",
     typical=_CONE,
@@ -90,7 +92,13 @@ def vibration_acceleration_least(
     return rotation_speed**2 * radius * jnp.tan(jnp.maximum(friction_angle - cone_angle, 0.0))
 
 
-@formula(source="leung1998", equation=r"\delta = \varphi - \gamma", output="tumbling_angle", typical=_CONE)
+@formula(
+    source="leung1998",
+    title="Least tilt of the tumbling axis",
+    equation=r"\delta = \varphi - \gamma",
+    output="tumbling_angle",
+    typical=_CONE,
+)
 def tumbling_angle_least(cone_angle: QuarterTurn, friction_angle: QuarterTurn) -> Angle:
     """Least tilt of the tumbling axis that brings each side of the cone, once a turn, above the friction of
     the cake.
@@ -133,6 +141,10 @@ def rising_angle(radius: Any, pitch: Any, beach: Any, flight: Any, bowl: Any) ->
         r"\tan\alpha = \frac{P}{2\pi r}"
     ),
     typical=HELIX | {"differential_speed": (0.5, 5.0)},
+    symbols={
+        "friction_angle_flight": r"\varphi_f",
+        "friction_angle_bowl": r"\varphi_b",
+    },
 )
 def conveying_velocity(
     radius: Length,
@@ -161,8 +173,16 @@ def conveying_velocity(
 
 @formula(
     source="leung1998, ch. 8; records2001",
-    equation=r"T = m\,\omega^2 r^2\,\tan\varphi_b\,\cos\beta\,\cos\lambda",
+    equation=(
+        r"T = m\,\omega^2 r^2\,\tan\varphi_b\,\cos\beta\,\cos\lambda,\quad "
+        r"\cos(\lambda + \alpha + \varphi_f) = \frac{\tan\beta}{\tan\varphi_b}\sin(\alpha + \varphi_f),\quad "
+        r"\tan\alpha = \frac{P}{2\pi r}"
+    ),
     typical=HELIX | {"mass": (0.5, 50.0), "rotation_speed": (200.0, 500.0)},
+    symbols={
+        "friction_angle_flight": r"\varphi_f",
+        "friction_angle_bowl": r"\varphi_b",
+    },
 )
 def conveying_torque(
     mass: Mass,
@@ -191,7 +211,7 @@ def conveying_torque(
 
 @formula(
     source="leung1998",
-    equation=r"P = \dot m\,\omega^2 r\,L\tan\varphi",
+    equation=r"P_c = \dot m\,\omega^2 r\,L\tan\varphi",
     title="Power that pushes a cake",
     output="power_conveying",
     typical={
@@ -260,7 +280,7 @@ def stay_time_sliding(
 @formula(
     source="leung1998",
     equation=(
-        r"s = \frac{1}{\Omega^2}\left[B\left(\cos\theta_1\,\Delta - \sin\theta_2 + \sin\theta_1\right) - "
+        r"s = \frac{1}{(2\pi f)^2}\left[B\left(\cos\theta_1\,\Delta - \sin\theta_2 + \sin\theta_1\right) - "
         r"\tfrac12 C\Delta^2\right],\quad \sin\theta_1 = \frac{C}{B},\; "
         r"B(\cos\theta_1 - \cos\theta_2) = C\Delta,\; \Delta = \theta_2 - \theta_1"
     ),

@@ -27,7 +27,7 @@ from granum.particles.formulas.terminal import Drag, drag_coefficient_brown_lawl
 
 @formula(
     source="perry2008, § 18",
-    equation=r"y = y_0 + \frac{\omega^2 x^2}{2g}",
+    equation=r"y = y_0 + \frac{\omega^2 r^2}{2g}",
     typical={"radius": (0.01, 0.3), "rotation_speed": (1.0, 30.0), "surface_height_center": (0.0, 0.5)},
 )
 def surface_height_rotating(
@@ -41,7 +41,11 @@ def surface_height_rotating(
     return surface_height_center + (rotation_speed * radius) ** 2 / (2.0 * STANDARD_GRAVITY)
 
 
-@formula(source="perry2008, § 18", equation=r"K = \frac{\omega^2 r}{g}")
+@formula(
+    source="perry2008, § 18",
+    equation=r"K = \frac{\omega^2 r}{g}",
+    typical={"rotation_speed": (50.0, 500.0)},
+)
 def centrifugal_effect(radius: Length, rotation_speed: RotationSpeed) -> PositiveNumber:
     """Centrifugal effect: acceleration of the field over that of gravity, also called relative centrifugal
     force.
@@ -73,7 +77,7 @@ def rotation_speed_for_effect(centrifugal_effect: PositiveNumber, radius: Length
 @formula(
     source="perry2008, § 18",
     equation=r"F_c = m\left(1 - \frac{\rho_f}{\rho_p}\right)\omega^2 r",
-    typical={"mass": (1e-6, 1.0)},
+    typical={"rotation_speed": (50.0, 500.0), "mass": (1e-6, 1.0)},
 )
 def centrifugal_force(
     mass: Mass,
@@ -117,7 +121,7 @@ def liquid_pressure_bowl(
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"v_c = K\,v_g",
+    equation=r"v_c = K\,v_t,\quad \mathrm{Re} = \frac{\rho_f v_c d_p}{\eta} \le 2",
     title="Settling velocity in a centrifuge, laminar",
     fitted={"reynolds": (0.0, 2.0)},
     typical={
@@ -150,7 +154,7 @@ _FAST = {"terminal_velocity": (1e-3, 1e-1), "centrifugal_effect": (100.0, 2000.0
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"v_c = K^{1/1.4}\,v_g",
+    equation=r"v_c = K^{1/1.4}\,v_t",
     title="Settling velocity in a centrifuge, intermediate",
     typical=_FAST,
     output="settling_velocity_centrifugal",
@@ -172,7 +176,7 @@ def settling_velocity_centrifugal_allen(
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"v_c = \sqrt{K}\,v_g",
+    equation=r"v_c = \sqrt{K}\,v_t",
     title="Settling velocity in a centrifuge, turbulent",
     typical=_FAST,
     output="settling_velocity_centrifugal",
@@ -194,7 +198,7 @@ def settling_velocity_centrifugal_newton(
     equation=r"v_c = v_t(d_p, \rho_p, \rho_f, \eta, \omega^2 r)",
     title="Settling velocity in a centrifuge, any range",
     output="settling_velocity_centrifugal",
-    typical={"particle_diameter": (1e-6, 1e-4)},
+    typical={"rotation_speed": (50.0, 500.0), "particle_diameter": (1e-6, 1e-4)},
 )
 def settling_velocity_centrifugal(
     particle_diameter: Length,

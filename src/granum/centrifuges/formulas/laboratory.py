@@ -67,13 +67,15 @@ def sedimentation_coefficient_stokes(
 
 @formula(
     source="svedberg1940",
-    equation=r"s_{20,w} = s\,\frac{\eta}{\eta_{20,w}}\,\frac{1 - \bar v\rho_{20,w}}{1 - \bar v\rho}",
+    title="Sedimentation coefficient in water at 20 °C",
+    equation=r"s_{20,w} = s\,\frac{\eta}{\eta_{20,w}}\,\frac{1 - \bar v\rho_{20,w}}{1 - \bar v\rho_f}",
     typical={
         "sedimentation_coefficient": (1e-13, 1e-11),
         "partial_specific_volume": (5e-4, 8e-4),
         "fluid_density": (990.0, 1050.0),
     },
     output="sedimentation_coefficient",
+    symbols={"=sedimentation_coefficient": "s_{20,w}"},
 )
 def sedimentation_coefficient_standard(
     sedimentation_coefficient: Time,
@@ -114,6 +116,7 @@ def sedimentation_coefficient_standard(
 
 @formula(
     source="svedberg1940",
+    title="Molar mass by sedimentation (Svedberg)",
     equation=r"M = \frac{s\,R\,T}{D\,(1 - \bar v\,\rho_f)}",
     output="molar_mass",
     typical={
@@ -155,7 +158,7 @@ def molar_mass_svedberg(
 
 @formula(
     source="graham2001",
-    equation=r"t = \frac{\ln(r_{max}/r_{min})}{\omega^2 s}",
+    equation=r"t = \frac{\ln(r_o/r_i)}{\omega^2 s}",
     typical={**_ROTOR, "sedimentation_coefficient": (1e-12, 1e-9)},
 )
 def pelleting_time(
@@ -174,7 +177,7 @@ def pelleting_time(
 
 @formula(
     source="graham2001",
-    equation=r"k = \frac{10^{13}}{3600}\,\frac{\ln(r_{max}/r_{min})}{\omega^2}",
+    equation=r"k = \frac{10^{13}}{3600}\,\frac{\ln(r_o/r_i)}{\omega^2}",
     typical=_ROTOR,
 )
 def clearing_factor(
@@ -197,6 +200,12 @@ def clearing_factor(
     output="pelleting_time",
     title="Pelleting time in another rotor",
     typical={"clearing_factor": (20.0, 300.0), "clearing_factor_other": (20.0, 300.0)},
+    symbols={
+        "time": "t_1",
+        "clearing_factor": "k_1",
+        "clearing_factor_other": "k_2",
+        "pelleting_time": "t_2",
+    },
 )
 def pelleting_time_other_rotor(
     time: Time, clearing_factor: PositiveNumber, clearing_factor_other: PositiveNumber
@@ -213,7 +222,7 @@ def pelleting_time_other_rotor(
 
 @formula(
     source="graham2001",
-    equation=r"f = \frac{r_{max} - \max(r_{min},\,r_{max}e^{-s\omega^2 t})}{r_{max} - r_{min}}",
+    equation=r"f = \frac{r_o - \max(r_i,\,r_oe^{-s\omega^2 t})}{r_o - r_i}",
     typical={**_ROTOR, "sedimentation_coefficient": (1e-12, 1e-10), "time": (60.0, 600.0)},
 )
 def pelleted_fraction(

@@ -37,7 +37,7 @@ _BOWL = {
 
 @formula(
     source="records2001; leung1998",
-    equation=r"P = \dot m\,\omega^2 r^2",
+    equation=r"P_a = \dot m\,\omega^2 r^2",
     output="power_acceleration",
     typical={"mass_flow": (0.1, 20.0), "radius": (0.05, 0.4), "rotation_speed": (100.0, 1000.0)},
 )
@@ -54,7 +54,7 @@ def power_acceleration(mass_flow: MassFlow, radius: Length, rotation_speed: Rota
 @formula(
     source="theodorsen1944; karman1921",
     equation=(
-        r"P = \pi\,C_D\,\rho\,\omega^3 R^4 L + 0.073\,\rho\,\omega^3 R^5\,\mathrm{Re}^{-1/5},\quad "
+        r"P_w = \pi\,C_D\,\rho\,\omega^3 R^4 L + 0.073\,\rho\,\omega^3 R^5\,\mathrm{Re}^{-1/5},\quad "
         r"\frac{1}{\sqrt{C_D}} = -0.6 + 4.07\,\lg\left(\mathrm{Re}\sqrt{C_D}\right),\quad "
         r"\mathrm{Re} = \frac{\rho\,\omega R^2}{\eta}"
     ),
@@ -126,7 +126,7 @@ def nozzle_flow_bowl(
 
 @formula(
     source="leung1998",
-    equation=r"t = \frac{V}{Q_s}",
+    equation=r"t_s = \frac{V_s}{Q}",
     output="discharge_interval",
     typical={"sludge_volume": (1e-3, 2e-2), "volume_flow": (1e-7, 1e-4)},
 )
@@ -172,6 +172,7 @@ def hoop_stress_bowl(
 
 @formula(
     source="budynas2015, eq. 7-22",
+    title="First critical speed of a bowl",
     equation=(
         r"\omega_c = \left(\frac{\pi}{L}\right)^2\sqrt{\frac{E I}{m'}},\quad I = \pi R^3 s,\quad "
         r"m' = 2\pi R s\,\rho_m + \pi (R^2 - r_i^2)\,\rho_l"

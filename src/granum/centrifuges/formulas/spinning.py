@@ -54,7 +54,8 @@ def _conductance(
 
 @formula(
     source="grace1953; mccabe2005, ch. 29",
-    equation=r"Q = \frac{\pi h\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}",
+    title="Filtrate flow of a basket",
+    equation=r"q = \frac{\pi h\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}",
     typical=_BASKET,
 )
 def filtrate_flow_basket(
@@ -83,7 +84,7 @@ def filtrate_flow_basket(
 
 @formula(
     source="storrow1957",
-    equation=r"Q_c = Q(r_i = r_c) \propto \omega^2",
+    equation=r"q = \frac{\pi h\,\rho_l\,\omega^2\,(r_o^2 - r_c^2)}{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}",
     typical=_BASKET,
     output="filtrate_flow",
     title="Critical filtrate flow of a basket",
@@ -119,7 +120,11 @@ def filtrate_flow_critical(
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"(r_o^2 - r_c^2)\left(1 + \frac{2 R_s B}{r_o}\right) + 2 r_c^2\ln\frac{r_c}{r_o} = \frac{2\,v\,B\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}{\eta}\,t",  # noqa: E501
+    title="Loading time of a basket",
+    equation=(
+        r"t_1 = \frac{\eta}{2\,v\,B\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}\left[(r_o^2 - r_c^2)\left(1 + "
+        r"\frac{2 R_s B}{r_o}\right) + 2 r_c^2\ln\frac{r_c}{r_o}\right]"
+    ),
     typical={**_BASKET, "cake_volume_per_filtrate": (0.02, 0.3)},
 )
 def loading_time_basket(
@@ -149,7 +154,10 @@ def loading_time_basket(
 
 @formula(
     source="storrow1957",
-    equation=r"t = \frac{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}{\rho_l\,\omega^2}\,\ln\frac{r_o^2 - r_i^2}{r_o^2 - r_c^2}",  # noqa: E501
+    equation=(
+        r"t_2 = \frac{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}{\rho_l\,\omega^2}\,\ln\frac{r_o^2 - "
+        r"r_i^2}{r_o^2 - r_c^2}"
+    ),
     typical=_BASKET,
 )
 def spin_off_time(
@@ -176,6 +184,7 @@ def spin_off_time(
 
 @formula(
     source="wakeman2005",
+    title="Irreducible saturation of a spun cake",
     equation=r"N_{cap} = \frac{\varepsilon^3 d_p^2\,\rho_l\,\omega^2 r}{(1-\varepsilon)^2\sigma},\quad"
     r" S_\infty = 0.0524\,N_{cap}^{-0.19}\;(N_{cap} \le 0.14),\; 0.0139\,N_{cap}^{-0.86}\;(N_{cap} > 0.14)",
     fitted={"capillary_number": (1e-5, 10.0)},
@@ -215,6 +224,7 @@ def irreducible_saturation_spinning(
 
 @formula(
     source="perry2008, § 18",
+    title="Saturation of a spun cake",
     equation=r"S = S_\infty + (1 - S_\infty)\min\left(1, \frac{4}{3\sqrt{t_d}}\right),\quad t_d = \frac{\rho_l\,\omega^2 r\,d_h^2\,t}{\eta\,Z},\; d_h = \frac{2\,\varepsilon\,d_p}{3\,(1-\varepsilon)}",  # noqa: E501
     output="cake_saturation",
     typical={
@@ -259,8 +269,12 @@ def cake_saturation_spinning(
 
 @formula(
     source="perry2008, § 18",
-    equation=r"S_\infty = S_c + S_p(1 - S_c),\quad S_c = \frac{4\sigma}{\rho_l\omega^2 r\,d_h Z},\quad"
-    r" S_p = 0.075\;(N_c \le 5),\; \frac{5}{40 + 6N_c}\;(N_c \le 10),\; \frac{0.5}{N_c},\quad N_c = \frac{\rho_l\omega^2 r\,d_h^2}{\sigma}",  # noqa: E501
+    equation=(
+        r"S_\infty = S_c + S_p(1 - S_c),\quad S_c = \frac{4\sigma}{\rho_l\omega^2 r\,d_h Z},\quad S_p = "
+        r"0.075\;(N_c \le 5),\; \frac{5}{40 + 6N_c}\;(N_c \le 10),\; \frac{0.5}{N_c},\quad N_c = "
+        r"\frac{\rho_l\omega^2 r\,d_h^2}{\sigma},\quad d_h = \frac{2\,\varepsilon\,d_p}{3\,(1 - "
+        r"\varepsilon)}"
+    ),
     output="irreducible_saturation",
     typical={
         "particle_diameter": (2e-5, 3e-4),

@@ -31,7 +31,8 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Dynamic, Limits, Unit
+from granum.streams.units import Dynamic, Limits, Unit, Utilities
+from granum.streams.utilities import DRIVE, driven
 
 _TINY = 1e-12
 OWN_LIMIT = "bond1961, the 80 % size only: that it has to lie within the grid of sizes is our own choice"
@@ -89,6 +90,8 @@ class BallMill(Unit, Dynamic):
     shaft_power: Annotated[Power, Within(0.0)] = 0.0
     breakage_convention: Convention = "continuous"
 
+    utilities: ClassVar[Utilities] = DRIVE
+
     def _residence_time(self, feed: Stream) -> Any:
         return self.holdup_mass / jnp.maximum(feed.solid_flow, _TINY)
 
@@ -104,6 +107,9 @@ class BallMill(Unit, Dynamic):
         coarse, fine = size_passing(feed), size_passing(outlets.product)
         energy = safe_divide(self.shaft_power, feed.solid_flow)
         return MillFigures(self._residence_time(feed), coarse, fine, coarse / fine, energy)
+
+    def drawn(self, inside: None, outlets: Ground, figures: MillFigures, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_drive": driven(outlets.shaft_power)}
 
     # -- in time: the shell as one mixed vessel of constant holdup
     # ------------------------------------------------
@@ -180,6 +186,8 @@ class BondMill(Unit):
         "finest": Limit("product in the finest size class", 0.0, 0.2, "percent", OWN_LIMIT)
     }
 
+    utilities: ClassVar[Utilities] = DRIVE
+
     def _product_size(self, feed: Stream) -> Any:
         energy = safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow) / self.efficiency_factor
         return product_size_bond(size_passing(feed), energy, self.work_index)
@@ -219,6 +227,9 @@ class BondMill(Unit):
     ) -> dict[str, Any]:
         return {"finest": outlets.product.size_fractions[0]}
 
+    def drawn(self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_drive": driven(outlets.shaft_power)}
+
 
 @equipment("cone_crusher", source="whiten1972; napiermunn1996", title="Cone or jaw crusher (Whiten)")
 class ConeCrusher(Unit):
@@ -235,6 +246,8 @@ class ConeCrusher(Unit):
     classification_exponent: PositiveNumber = 2.3
     shaft_power: Annotated[Power, Within(0.0)] = 0.0
     breakage_convention: Convention = "continuous"
+
+    utilities: ClassVar[Utilities] = DRIVE
 
     def __check_init__(self) -> None:
         low, high = self.always_passing_size, self.always_broken_size
@@ -261,3 +274,6 @@ class ConeCrusher(Unit):
         return CrusherFigures(
             coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow)
         )
+
+    def drawn(self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_drive": driven(outlets.shaft_power)}

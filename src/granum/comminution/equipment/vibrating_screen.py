@@ -24,7 +24,8 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.particles.partition import RosinRammlerPartition
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA
 
 SHARPNESS = 5.846
 _LARGEST_NEAR_SIZE = 0.99
@@ -79,6 +80,8 @@ class VibratingScreen(Unit):
         "load": Limit("undersize fed over the capacity of the screen", 0.0, 1.0, "percent", "karra1979"),
     }
 
+    utilities: ClassVar[Utilities] = AREA
+
     def inside(self, feed: Stream) -> _Load:
         h = karra.throughfall_aperture(self.aperture, self.wire_diameter, self.deck_inclination)
         below = fraction_below(feed, h)
@@ -122,6 +125,11 @@ class VibratingScreen(Unit):
         self, inside: _Load, outlets: Screened, figures: VibratingScreenFigures, feed: Stream
     ) -> dict[str, Any]:
         return {"load": inside.loading}
+
+    def drawn(
+        self, inside: _Load, outlets: Screened, figures: VibratingScreenFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {"area_installed": self.screen_area}
 
     @classmethod
     def size(

@@ -39,7 +39,7 @@ def _reduction(energy: Any, feed_size: Any, product_size: Any) -> Any:
 
 @formula(
     source="rittinger1867; coulson2002, ch. 2",
-    equation=r"E = K_R f_c \left(\frac{1}{L_2} - \frac{1}{L_1}\right)",
+    equation=r"E = K_R f_c \left(\frac{1}{P} - \frac{1}{F}\right)",
     fitted={"product_size": (0.0, 1e-3)},
 )
 def specific_energy_rittinger(
@@ -87,7 +87,7 @@ def specific_energy_rittinger_surface(
 
 @formula(
     source="kick1885; coulson2002, ch. 2",
-    equation=r"E = K_K f_c \ln\frac{L_1}{L_2}",
+    equation=r"E = K_K f_c \ln\frac{F}{P}",
     fitted={"product_size": (1e-2, jnp.inf)},
     typical={"feed_size": (0.06, 0.3), "product_size": (0.011, 0.05)},
 )
@@ -110,8 +110,9 @@ def specific_energy_kick(
     fitted={"product_size": (4e-5, 2.5e-2)},
     equation=(
         r"E = 10\,W_i\left(\frac{1}{\sqrt{P_{80}}} - \frac{1}{\sqrt{F_{80}}}\right),\ P_{80}, "
-        r"F_{80}\ \text{in µm}"
+        r"F_{80}\text{ in }\mathrm{µm}"
     ),
+    symbols={"feed_size": "F_{80}", "product_size": "P_{80}"},
 )
 def specific_energy_bond(feed_size: Length, product_size: Length, work_index: WorkIndex) -> SpecificEnergy:
     """Energy by Bond's third theory, from the sizes that 80 % of feed and product pass.
@@ -134,6 +135,7 @@ def specific_energy_bond(feed_size: Length, product_size: Length, work_index: Wo
     output="product_size",
     title="Product size by Bond's law",
     typical={"specific_energy": (1e3, 5e4)},
+    symbols={"feed_size": "F_{80}", "product_size": "P_{80}"},
 )
 def product_size_bond(
     feed_size: Length, specific_energy: Annotated[SpecificEnergy, Within(0.0)], work_index: WorkIndex
@@ -156,6 +158,7 @@ def product_size_bond(
     output="work_index",
     title="Operating work index",
     typical={"specific_energy": (1e3, 5e4)},
+    symbols={"feed_size": "F_{80}", "product_size": "P_{80}", "work_index": "W_{io}"},
 )
 def work_index_operating(
     feed_size: Length, product_size: Length, specific_energy: Annotated[SpecificEnergy, Within(0.0)]
@@ -178,12 +181,14 @@ def work_index_operating(
     source="bond1961",
     equation=(
         r"W_i = \frac{44.5}{P_1^{0.23}\,G^{0.82}\left(\frac{10}{\sqrt{P_{80}}} - "
-        r"\frac{10}{\sqrt{F_{80}}}\right)}\ \text{kWh per short ton, sizes in µm, G in g}"
+        r"\frac{10}{\sqrt{F_{80}}}\right)}\ \mathrm{kWh}/\text{short ton},"
+        r"\quad P_1, P_{80}, F_{80}\text{ in }\mathrm{µm},\ G\text{ in }\mathrm g"
     ),
     title="Work index from the ball mill grindability test",
     output="work_index",
     fitted={"closing_aperture": (2.8e-5, 6e-4)},
     typical={"feed_size": (1.5e-3, 3e-3), "product_size": (4e-5, 1.5e-4), "closing_aperture": (5e-5, 3e-4)},
+    symbols={"feed_size": "F_{80}", "product_size": "P_{80}"},
 )
 def work_index_ball_mill_test(
     closing_aperture: Length,
@@ -204,7 +209,7 @@ def work_index_ball_mill_test(
 
 @formula(
     source="walker1937",
-    equation=r"E = K\,\frac{(L_2/L_0)^{1-n} - (L_1/L_0)^{1-n}}{n - 1};\quad n = 1:\ K \ln\frac{L_1}{L_2}",
+    equation=r"E = K\,\frac{(P/L_0)^{1-n} - (F/L_0)^{1-n}}{n - 1};\quad n = 1:\ K \ln\frac{F}{P}",
 )
 def specific_energy_walker(
     feed_size: Length,
@@ -232,8 +237,8 @@ def specific_energy_walker(
     source="hukki1961; bond1952",
     title="Specific energy over Hukki's three ranges",
     equation=(
-        r"dE = -\tfrac12 W_i \sqrt{d}\,x^{-3/2} dx\ (x_R < x < x_K);\ \propto x^{-1} dx\ (x > "
-        r"x_K);\ \propto x^{-2} dx\ (x < x_R)"
+        r"E = \int_P^F -\frac{dE}{dx}\,dx,\quad \frac{dE}{dx} = -\tfrac12 W_i \sqrt{d}\,x^{-3/2}\ (x_R "
+        r"< x < x_K),\ \propto x^{-1}\ (x > x_K),\ \propto x^{-2}\ (x < x_R)"
     ),
     typical={"feed_size": (1e-2, 0.3), "product_size": (1e-5, 5e-3)},
 )
@@ -272,10 +277,11 @@ def specific_energy_hukki(
 @formula(
     source="morrell2004; morrell2009",
     equation=(
-        r"E = 4\,M_i\left(P_{80}^{\,f(P_{80})} - F_{80}^{\,f(F_{80})}\right),\ f(x) = -(0.295 + "
-        r"x/10^6),\ x\ \text{in µm},\ \text{kWh/t}"
+        r"E = 4\,W_i\left(P_{80}^{\,f(P_{80})} - F_{80}^{\,f(F_{80})}\right),\ f(x) = -(0.295 + "
+        r"x/10^6),\ x\text{ in }\mathrm{µm},\ \mathrm{kWh/t}"
     ),
     typical={"feed_size": (5e-3, 5e-2), "product_size": (1e-4, 7.5e-4)},
+    symbols={"feed_size": "F_{80}", "product_size": "P_{80}"},
 )
 def specific_energy_morrell(feed_size: Length, product_size: Length, work_index: WorkIndex) -> SpecificEnergy:
     """Energy by Morrell's relation, from 80 % sizes and the work index of the kind of grinding (Mia, Mib,
@@ -309,7 +315,7 @@ def shaft_power_comminution(mass_flow: MassFlow, specific_energy: SpecificEnergy
     return mass_flow * specific_energy
 
 
-@formula(source="coulson2002, ch. 2", equation=r"R = \frac{F}{P}")
+@formula(source="coulson2002, ch. 2", equation=r"R_r = \frac{F}{P}")
 def reduction_ratio(feed_size: Length, product_size: Length) -> Ratio:
     """Size of the feed over that of the product.
 

@@ -28,6 +28,7 @@ FLAT_NIP = "The tangents to the rolls at the feed meet at less than 180°; rolls
     output="rotation_speed",
     title="Critical speed of a tumbling mill",
     typical={"mill_diameter": (1.0, 5.0), "ball_diameter": (0.01, 0.1)},
+    symbols={"rotation_speed": r"\omega_c"},
 )
 def rotation_speed_critical(
     mill_diameter: Length, ball_diameter: Distance = 0.0, gravity: Acceleration = STANDARD_GRAVITY
@@ -65,7 +66,7 @@ def mill_filling(mill_diameter: Length, height_above_charge: Distance) -> Fracti
 
 @formula(
     source="bond1961",
-    equation=r"B = 25.4\,\mathrm{mm}\sqrt{\frac{F}{K}}\left(\frac{\rho_s\,W_i}{100\,f_c\sqrt{D}}\right)^{1/3}",  # noqa: E501
+    equation=r"d = 25.4\,\mathrm{mm}\sqrt{\frac{F}{K}}\left(\frac{\rho_s\,W_i}{100\,f_c\sqrt{D}}\right)^{1/3}",  # noqa: E501
     output="ball_diameter",
     title="Largest make-up ball of a mill (Bond)",
     typical={"mill_diameter": (1.0, 5.0), "speed_share": (0.65, 0.8), "feed_size": (5e-4, 1e-2)},
@@ -100,7 +101,7 @@ def ball_diameter_bond(
 
 @formula(
     source="coulson2002, ch. 2",
-    equation=r"d_{\max} = \frac{D + s}{\cos(\alpha/2)} - D",
+    equation=r"F = \frac{D + s}{\cos(\alpha/2)} - D",
     output="feed_size",
     title="Largest feed of crushing rolls",
     typical={"nip_angle": (0.3, 0.6), "roll_diameter": (0.5, 1.5), "gap_width": (0.002, 0.02)},
@@ -118,7 +119,7 @@ def feed_size_rolls(roll_diameter: Length, gap_width: Length, nip_angle: Angle) 
 
 @formula(
     source="coulson2002, ch. 2",
-    equation=r"\cos\frac{\alpha}{2} = \frac{D + s}{D + d}",
+    equation=r"\cos\frac{\alpha}{2} = \frac{D + s}{D + F}",
     output="nip_angle",
     title="Angle of nip of crushing rolls",
     typical={"feed_size": (0.01, 0.04), "roll_diameter": (0.5, 1.5), "gap_width": (0.002, 0.009)},
@@ -137,7 +138,7 @@ def nip_angle_rolls(roll_diameter: Length, gap_width: Length, feed_size: Length)
 
 @formula(
     source="coulson2002, ch. 2",
-    equation=r"D = \frac{d\cos(\alpha/2) - s}{1 - \cos(\alpha/2)}",
+    equation=r"D = \frac{F\cos(\alpha/2) - s}{1 - \cos(\alpha/2)}",
     output="roll_diameter",
     title="Diameter of crushing rolls for a feed",
     typical={"feed_size": (0.02, 0.05), "nip_angle": (0.4, 0.6), "gap_width": (0.002, 0.009)},
@@ -159,7 +160,7 @@ def roll_diameter_rolls(feed_size: Length, gap_width: Length, nip_angle: Angle) 
 
 @formula(
     source="coulson2002, ch. 2",
-    equation=r"Q = \pi D\,N\,w\,s\,k",
+    equation=r"Q = \pi D\,\frac{\omega}{2\pi}\,w\,s\,k",
     output="volume_flow",
     title="Capacity of crushing rolls",
     typical={

@@ -19,9 +19,10 @@ DRY = 1.3
 
 @formula(
     source="rowland1980, EF2",
-    equation=r"EF_2 = 1.035 \ldots 1.70\ \text{for}\ 50 \ldots 98\ \%\ \text{passing}",
+    equation=r"EF_2(q) = 1.035 \ldots 1.70,\quad q = 50 \ldots 98\ \%",
     title="EF2, open-circuit ball mill",
     fitted={"passing_fraction": (0.5, 0.98)},
+    symbols={"efficiency_factor": "EF_2"},
 )
 def efficiency_factor_open_circuit(passing_fraction: Annotated[Fraction, Within(0.0, 1.0)]) -> PositiveNumber:
     """Rowland's EF2: extra energy of open-circuit ball milling, by the fraction that must pass the control
@@ -37,6 +38,7 @@ def efficiency_factor_open_circuit(passing_fraction: Annotated[Fraction, Within(
     source="rowland1980, EF3",
     equation=r"EF_3 = \left(\frac{2.44}{D}\right)^{0.2},\ D \le 3.81\ \mathrm{m};\ 0.914\ \text{above}",
     title="EF3, mill diameter",
+    symbols={"efficiency_factor": "EF_3"},
 )
 def efficiency_factor_diameter(mill_diameter: Length) -> PositiveNumber:
     """Rowland's EF3: Bond's base mill is 2.44 m inside the liners; larger ones gain up to 3.81 m, and no more
@@ -52,9 +54,10 @@ def efficiency_factor_diameter(mill_diameter: Length) -> PositiveNumber:
     source="rowland1980, EF4",
     title="EF4, oversized feed",
     equation=(
-        r"EF_4 = \frac{R_r + (W_i - 7)\,\frac{F_{80} - F_o}{F_o}}{R_r},\ F_o = "
-        r"4000\sqrt{13/W_i}\ (\text{ball}),\ 16000\sqrt{13/W_i}\ (\text{rod})"
+        r"EF_4 = \frac{R_r + (W_i - 7)\,\frac{F_{80} - F_o}{F_o}}{R_r},\ F_o = 4000\sqrt{13/W_i}\ "
+        r"(\text{ball}),\ 16000\sqrt{13/W_i}\ (\text{rod}),\quad R_r = F_{80}/P_{80}"
     ),
+    symbols={"efficiency_factor": "EF_4", "feed_size": "F_{80}", "product_size": "P_{80}"},
 )
 def efficiency_factor_oversize(
     feed_size: Length, product_size: Length, work_index: WorkIndex, mill: Literal["ball", "rod"] = "ball"
@@ -74,10 +77,11 @@ def efficiency_factor_oversize(
 
 @formula(
     source="rowland1980, EF5",
-    equation=r"EF_5 = \frac{P_{80} + 10.3}{1.145\,P_{80}},\ P_{80} < 75\ \text{µm}",
+    equation=r"EF_5 = \frac{P_{80} + 10.3}{1.145\,P_{80}},\ P_{80} < 75\ \mathrm{µm}",
     title="EF5, fine product",
     typical={"product_size": (1.5e-5, 6e-5)},
     fitted={"product_size": (1.5e-5, jnp.inf)},
+    symbols={"efficiency_factor": "EF_5", "product_size": "P_{80}"},
 )
 def efficiency_factor_fineness(product_size: Length) -> PositiveNumber:
     """Rowland's EF5: extra energy for products finer than 75 µm; 1 above, never above 5.
@@ -91,7 +95,7 @@ def efficiency_factor_fineness(product_size: Length) -> PositiveNumber:
 
 @formula(
     source="rowland1980, EF6",
-    equation=r"EF_6 = 1 + \frac{(R_r - R_{ro})^2}{150},\ R_{ro} = 8 + 5\,\frac{L}{D}",
+    equation=r"EF_6 = 1 + \frac{(R_r - R_{ro})^2}{150},\ R_{ro} = 8 + 5\,\frac{L}{D},\quad R_r = F/P",
     title="EF6, reduction ratio of a rod mill",
     typical={
         "feed_size": (1.5e-2, 2e-2),
@@ -99,6 +103,7 @@ def efficiency_factor_fineness(product_size: Length) -> PositiveNumber:
         "rod_length": (5.0, 5.5),
         "mill_diameter": (3.4, 3.6),
     },
+    symbols={"efficiency_factor": "EF_6"},
 )
 def efficiency_factor_rod_ratio(
     feed_size: Length, product_size: Length, rod_length: Length, mill_diameter: Length
@@ -115,9 +120,10 @@ def efficiency_factor_rod_ratio(
 
 @formula(
     source="rowland1980, EF7",
-    equation=r"EF_7 = \frac{2(R_r - 1.35) + 0.26}{2(R_r - 1.35)},\ R_r < 6",
+    equation=r"EF_7 = \frac{2(R_r - 1.35) + 0.26}{2(R_r - 1.35)},\ R_r < 6,\quad R_r = F/P",
     title="EF7, low reduction ratio of a ball mill",
     typical={"feed_size": (3e-4, 5e-4), "product_size": (1e-4, 1.5e-4)},
+    symbols={"efficiency_factor": "EF_7"},
 )
 def efficiency_factor_low_ratio(feed_size: Length, product_size: Length) -> PositiveNumber:
     """Rowland's EF7: extra energy of a ball mill with a reduction ratio below 6, as in regrinding; no value

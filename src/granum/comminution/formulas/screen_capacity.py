@@ -32,6 +32,7 @@ Deck = Literal[1, 2, 3]
     source="karra1979",
     equation=r"h_T = (h + d_w)\cos\theta - d_w",
     typical={"aperture": (5e-3, 5e-2), "wire_diameter": (5e-4, 5e-3), "deck_inclination": (0.0, 0.4)},
+    symbols={"aperture": "h"},
 )
 def throughfall_aperture(
     aperture: Length, wire_diameter: Distance = 0.0, deck_inclination: Angle = 0.0
@@ -90,8 +91,12 @@ _WET = (
 
 @formula(
     source="karra1979; king2012",
-    equation=r"\dot m''_U = A\,B\,C\,D\,E\,F\,G,\quad A = 12.1286\,h_T^{0.3162} - 10.2991\ (h_T < 50.8),\ 0.3388\,h_T + 14.4122;\quad"  # noqa: E501
-    r" G = 0.844\,(1 - X_n)^{3.453}\qquad h_T\ \text{in mm},\ \mathrm{t\,h^{-1}\,m^{-2}}",
+    equation=(
+        r"\dot m''_U = A\,B\,C\,D\,E\,F\,G\ \mathrm{t\,h^{-1}\,m^{-2}},\quad A = 12.1286\,h_T^{0.3162} "
+        r"- 10.2991\ (h_T < 50.8),\ 0.3388\,h_T + 14.4122,"
+        r"\quad h_T\text{ in }\mathrm{mm},\quad B = B(Q),\ C = "
+        r"C(R),\quad G = 0.844\,(1 - X_n)^{3.453}"
+    ),
     fitted={"throughfall_aperture": (1e-3, 0.1)},
     typical={"throughfall_aperture": (3e-3, 5e-2), "open_area_fraction": (0.5, 0.7)},
 )

@@ -49,7 +49,7 @@ def product_yield(
 
 @formula(
     source="mccabe2005, ch. 29",
-    equation=r"\frac{P\,x_P}{F\,x_F}",
+    equation=r"f_{DO} = \frac{P\,x_P}{F\,x_F},\quad \frac{P}{F} = \frac{x_F - x_R}{x_P - x_R}",
     typical=_TYPICAL,
     title="Recovery of the desired material",
 )
@@ -69,7 +69,7 @@ def screening_recovery(
 
 @formula(
     source="mccabe2005, ch. 29",
-    equation=r"\frac{R\,(1 - x_R)}{F\,(1 - x_F)}",
+    equation=r"f_{nDe} = \frac{R\,(1 - x_R)}{F\,(1 - x_F)},\quad \frac{R}{F} = \frac{x_P - x_F}{x_P - x_R}",
     typical=_TYPICAL,
     title="Rejection of the undesired material",
 )

@@ -35,7 +35,7 @@ LANG = {"solids": 3.10, "solids_and_fluids": 3.63, "fluids": 4.74}
     title="Plant cost index of a year",
     fitted={"year": (1990.0, 2023.0)},
     typical={"year": (1991.3, 2022.6)},
-    equation=r"I(y)",
+    equation=r"I = I(y)",
 )
 def cost_index_annual(year: Annotated[PositiveNumber, Within(1950.0, 2100.0)]) -> PositiveNumber:
     """Annual average of the Chemical Engineering Plant Cost Index, 1957–59 = 100, straight lines between
@@ -50,7 +50,12 @@ def cost_index_annual(year: Annotated[PositiveNumber, Within(1950.0, 2100.0)]) -
     return jnp.interp(year, years, values)
 
 
-@formula(source="peters2003, ch. 6", equation=r"C = C_0\,\frac{I}{I_0}", title="Cost carried to another year")
+@formula(
+    source="peters2003, ch. 6",
+    equation=r"C = C_0\,\frac{I}{I_0}",
+    title="Cost carried to another year",
+    symbols={"cost": "C_0", "cost_index_known": "I_0", "=cost": "C"},
+)
 def cost_updated(cost: Cost, cost_index_known: PositiveNumber, cost_index: PositiveNumber) -> Cost:
     """A cost of one year in the money of another, by the ratio of a price index.
 
@@ -84,7 +89,7 @@ def capital_cost_lang(
 
 @formula(
     source="peters2003, ch. 7",
-    equation=r"A = C\,\frac{i(1+i)^n}{(1+i)^n-1}",
+    equation=r"A = C_T\,\frac{i(1+i)^n}{(1+i)^n-1}",
     title="Annual charge of capital",
     typical={"interest_rate": (0.02, 0.2), "lifetime": (1.6e8, 7.0e8)},
 )
@@ -110,7 +115,7 @@ def annual_capital_charge(
     return capital_cost * factor / year
 
 
-@formula(source="peters2003, ch. 6", equation=r"\dot C = P\,p", title="Cost of energy")
+@formula(source="peters2003, ch. 6", equation=r"C_E = P\,p_E", title="Cost of energy")
 def energy_cost_rate(power: Power, energy_price: EnergyPrice, operating_fraction: Fraction = 1.0) -> CostRate:
     """Cost of heat or electricity per unit of time, averaged over the year.
 
@@ -123,7 +128,7 @@ def energy_cost_rate(power: Power, energy_price: EnergyPrice, operating_fraction
     return power * energy_price * operating_fraction
 
 
-@formula(source="peters2003, ch. 6", equation=r"\dot C = \dot m\,p", title="Cost of a material")
+@formula(source="peters2003, ch. 6", equation=r"C_M = \dot m\,p_M", title="Cost of a material")
 def material_cost_rate(
     mass_flow: MassFlow, mass_price: MassPrice, operating_fraction: Fraction = 1.0
 ) -> CostRate:
@@ -137,7 +142,7 @@ def material_cost_rate(
 
 @formula(
     source="peters2003, ch. 8",
-    equation=r"t = \frac{C}{\dot G}",
+    equation=r"t_p = \frac{C_T}{G}",
     title="Payback time",
     typical={"annual_gain": (0.001, 0.01)},
 )

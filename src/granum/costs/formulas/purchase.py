@@ -123,6 +123,7 @@ def purchased_cost_exchanger(
     equation=_EQUATION,
     title="Cost of equipment sized by volume",
     typical={"volume": (2.0, 20.0)},
+    symbols={"volume": "A"},
 )
 def equipment_cost_by_volume(
     volume: Volume,
@@ -148,6 +149,7 @@ def equipment_cost_by_volume(
     equation=_EQUATION,
     title="Cost of a centrifuge",
     typical={"diameter": (0.5, 1.0)},
+    symbols={"diameter": "A"},
 )
 def equipment_cost_by_diameter(
     diameter: Length,
@@ -200,7 +202,7 @@ def purchased_cost_evaporator(
     fitted={"volume_flow": (1.0, 100.0)},
     title="Cost of a fan",
     typical={"volume_flow": (5.0, 80.0)},
-    equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} \dot V + K_3 (\log_{10} \dot V)^2",
+    equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} Q + K_3 (\log_{10} Q)^2",
 )
 def purchased_cost_fan(
     volume_flow: VolumeFlow,
@@ -244,6 +246,7 @@ def purchased_cost_pump(
     title="Cost of a mixer",
     typical={"power": (6e3, 1.4e5)},
     equation=_EQUATION,
+    symbols={"power": "A"},
 )
 def equipment_cost_mixer(
     power: Power,
@@ -263,9 +266,10 @@ def equipment_cost_mixer(
 @formula(
     source="williams1947; peters2003, ch. 6",
     fitted={"capacity_ratio": (0.1, 10.0)},
-    equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}",
+    equation=r"C_p = C_{p,0}\left(\frac{S}{S_0}\right)^{n}",
     title="Cost of a larger or smaller piece of the same kind",
     typical={"scaling_exponent": (0.4, 0.9)},
+    symbols={"purchased_cost_known": "C_{p,0}"},
 )
 def purchased_cost_scaled(
     purchased_cost_known: Cost, capacity_ratio: PositiveNumber, scaling_exponent: Ratio = 0.6

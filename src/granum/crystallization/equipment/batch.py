@@ -53,7 +53,8 @@ from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated, suspended
 
 STEPS = 300
 TRICKLE = 1e-12  # kg/s of solvent, so that an empty feed gives an empty product
@@ -274,6 +275,14 @@ class _Cycled(_Batch):
         return self.seed_mass_per_solvent * feed_of(feed, found).solvent * self.cycle
 
 
+def _thermal(duty: Any, feed: Stream, product: Stream) -> dict[str, Any]:
+    """Heat and cold of a vessel whose contents go from one temperature to another, by the carriers that its
+    ends ask for.
+    """
+    hot, cold = (f(feed.temperature, product.temperature) for f in (jnp.maximum, jnp.minimum))
+    return heated(duty, hot) | cooled(duty, cold)
+
+
 @equipment(
     "batch_crystallizer",
     source="mullin2001, ch. 9; miller1994",
@@ -291,6 +300,8 @@ class BatchCrystallizer(_Cycled):
 
     temperature_program: Program
 
+    utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
+
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)
 
@@ -301,6 +312,13 @@ class BatchCrystallizer(_Cycled):
         figures = self._figures(inside, outlets.product, feed)
         volume = outlets.product.slurry_volume_flow * self.cycle
         return BatchFigures._make((*figures, self._seed(feed, inside.found), volume, outlets.heat_duty))
+
+    def drawn(
+        self, inside: Grown, outlets: BatchOutlets, figures: BatchFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return _thermal(outlets.heat_duty, feed, outlets.product) | {
+            "electric_power_agitator": suspended(outlets.product, figures.volume)
+        }
 
 
 @equipment(
@@ -334,6 +352,8 @@ class JacketedBatchCrystallizer(_Cycled):
         )
     }
 
+    utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
+
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         exchange = self.heat_transfer_coefficient * self.area * feed.slurry_volume_flow / self.volume
         return Jacketed(feed.temperature, self.jacket_program, exchange, StreamHeat.of(feed, found))
@@ -366,6 +386,13 @@ class JacketedBatchCrystallizer(_Cycled):
     ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed) | {"crust": figures.undercooling_wall_maximum}
 
+    def drawn(
+        self, inside: Grown, outlets: BatchOutlets, figures: JacketedBatchFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return _thermal(outlets.heat_duty, feed, outlets.product) | {
+            "electric_power_agitator": suspended(outlets.product, figures.vessel_count * self.volume)
+        }
+
 
 @equipment(
     "vacuum_batch_crystallizer",
@@ -382,6 +409,8 @@ class VacuumBatchCrystallizer(_Cycled):
     """
 
     temperature_program: Program
+
+    utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         if found.vapor is None:
@@ -412,6 +441,13 @@ class VacuumBatchCrystallizer(_Cycled):
         gone, volume = course.solvent[0] - course.solvent[-1], outlets.product.slurry_volume_flow * self.cycle
         return VacuumBatchFigures._make((*figures, self._seed(feed, inside.found), volume, gone, fastest))
 
+    def drawn(
+        self, inside: Grown, outlets: VacuumBatchOutlets, figures: VacuumBatchFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return _thermal(outlets.heat_duty, feed, outlets.product) | {
+            "electric_power_agitator": suspended(outlets.product, figures.volume)
+        }
+
 
 @equipment(
     "plug_flow_crystallizer",
@@ -431,6 +467,8 @@ class PlugFlowCrystallizer(_Batch):
     temperature_program: Program
     volume: Volume
 
+    utilities: ClassVar[Utilities] = HEATED | COOLED
+
     def _time(self, feed: Stream) -> Any:
         return safe_divide(self.volume, feed.slurry_volume_flow)
 
@@ -443,3 +481,8 @@ class PlugFlowCrystallizer(_Batch):
     def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
         figures = self._figures(inside, outlets.product, feed)
         return PlugFlowFigures._make((*figures, self._time(feed), outlets.heat_duty))
+
+    def drawn(
+        self, inside: Grown, outlets: BatchOutlets, figures: PlugFlowFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return _thermal(outlets.heat_duty, feed, outlets.product)

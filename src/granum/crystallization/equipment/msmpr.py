@@ -43,7 +43,8 @@ from granum.crystallization.kinds import Growth, Nucleation, Solubility
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, median_of
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated, suspended
 
 _UNSOLVED = (
     "No supersaturation was found at which the crystals made are those that the solute balance leaves: "
@@ -91,6 +92,8 @@ class _Continuous(Unit):
         "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
         "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
     }
+
+    utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
     def inside(self, feed: Stream) -> tuple[SteadyState, Roles]:
         """The steady suspension, and which species plays which part."""
@@ -168,6 +171,17 @@ class _Continuous(Unit):
             "largest": outlets.product.size_fractions[-1],
             "drying": figures.evaporation,
         }
+
+    def drawn(
+        self,
+        inside: tuple[SteadyState, Roles],
+        outlets: Crystallized,
+        figures: CrystallizerFigures,
+        feed: Stream,
+    ) -> dict[str, Any]:
+        duty, T = outlets.heat_duty, self.temperature
+        agitator = {"electric_power_agitator": suspended(outlets.product, self.volume)}
+        return heated(duty, T) | cooled(duty, T) | agitator
 
     def _removal(self) -> Removal | None:
         """Fines dissolved and product classified; none by default."""

@@ -87,10 +87,12 @@ class ProductKernel(AgglomerationKernel):
 
 @formula(
     source="smoluchowski1917; mullin2001, ch. 7",
+    title="Agglomeration by Brownian motion",
     fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)},
     equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}",
     output="agglomeration_coefficient",
     typical={"crystal_size": (1e-7, 1e-6), "crystal_size_other": (1e-7, 1e-6)},
+    symbols={"agglomeration_coefficient": r"\beta", "crystal_size_other": r"\lambda"},
 )
 def agglomeration_coefficient_brownian(
     crystal_size: Length,
@@ -116,10 +118,12 @@ def agglomeration_coefficient_brownian(
 
 @formula(
     source="saffman1956; smoluchowski1917",
+    title="Agglomeration by turbulent shear",
     fitted={"eddy_ratio": (0.0, 1.0)},
     equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}",
     output="agglomeration_coefficient",
     typical={"shear_rate": (10.0, 1000.0), "capture_efficiency": (0.01, 1.0)},
+    symbols={"agglomeration_coefficient": r"\beta", "crystal_size_other": r"\lambda"},
 )
 def agglomeration_coefficient_turbulent(
     crystal_size: Length,
@@ -147,7 +151,12 @@ def agglomeration_coefficient_turbulent(
     return SMALL_EDDIES * capture_efficiency * shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
 
 
-@formula(source="saffman1956", equation=r"\dot\gamma = \sqrt{\varepsilon/\nu}", output="shear_rate")
+@formula(
+    source="saffman1956",
+    title="Shear rate in turbulence",
+    equation=r"\dot\gamma = \sqrt{\varepsilon/\nu}",
+    output="shear_rate",
+)
 def shear_rate_turbulent(
     specific_power_input: SpecificPower, kinematic_viscosity: KinematicViscosity
 ) -> Frequency:

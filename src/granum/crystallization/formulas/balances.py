@@ -82,7 +82,7 @@ def _crystals_and_liquor(A: Any, V: Any, x_A: Any, x: Any, x_L: Any) -> tuple[An
 
 @formula(
     source="mullin2001, ch. 3; geankoplis2003, sec. 12.11",
-    equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}",
+    equation=r"x_c = \frac{M}{M_h}",
     typical={"molar_mass": (0.05, 0.15), "hydrate_molar_mass": (0.15, 0.35)},
 )
 def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarMass) -> Ratio:
@@ -113,6 +113,7 @@ def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarM
         "solute_fraction_of_crystal": (0.55, 1.0),
         "evaporation": (0.0, 0.05),
     },
+    symbols={"mass_flow": "A", "solute_mass_fraction": "x_A", "evaporation": "V"},
 )
 def crystallizer_balance(
     mass_flow: MassFlow,
@@ -144,7 +145,8 @@ def crystallizer_balance(
 
 @formula(
     source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
-    equation=r"\dot Q = A c_{p} (T_L - T_A) - C q_c + V L_v",
+    title="Heat duty of a crystallizer",
+    equation=r"\dot Q = \dot m c_{p} (T - T_1) - C q_c + \dot m_v L_v",
     output="heat_duty",
     typical={
         "mass_flow": (2.0, 10.0),
@@ -153,6 +155,7 @@ def crystallizer_balance(
         "crystal_flow": (0.1, 1.0),
         "evaporation": (0.0, 0.2),
     },
+    symbols={"temperature_inlet": "T_1"},
 )
 def heat_duty_crystallizer(
     mass_flow: MassFlow,
@@ -200,7 +203,7 @@ class FlashBalance(NamedTuple):
     source="mullin2001, ch. 8; richardson2002, ch. 15",
     equation=(
         r"V = \frac{q_c C_0 + A c_p (T_A - T_L)}{L_v - q_c\,x_L/(x_c - x_L)},\quad C_0 = A\frac{x_A - "
-        r"x_L}{x_c - x_L}"
+        r"x_L}{x_c - x_L},\quad x_L = \frac{C^*}{1 + C^*}"
     ),
     title="Adiabatic vacuum crystallizer at equilibrium",
     typical={
@@ -210,6 +213,13 @@ class FlashBalance(NamedTuple):
         "solute_fraction_of_crystal": (0.55, 1.0),
         "temperature_inlet": (340.0, 360.0),
         "temperature": (290.0, 310.0),
+    },
+    symbols={
+        "mass_flow": "A",
+        "solute_mass_fraction": "x_A",
+        "temperature_inlet": "T_A",
+        "temperature": "T_L",
+        "evaporation": "V",
     },
 )
 def vacuum_crystallizer_balance(
@@ -258,7 +268,8 @@ def vacuum_crystallizer_balance(
 @formula(
     source="mullin2001, ch. 8; geankoplis2003, sec. 12.11",
     equation=(
-        r"V = A\left(1 - \frac{y x_A}{x_c} - \frac{(1-y)\,x_A}{x_L}\right),\quad x_L = " r"\frac{C^*}{1+C^*}"
+        r"\dot m_v = \dot m\left(1 - \frac{R x_A}{x_c} - \frac{(1-R)\,x_A}{x_L}\right),\quad x_L = "
+        r"\frac{C^*}{1+C^*}"
     ),
     output="evaporation",
     title="Evaporation for a yield",
@@ -268,6 +279,7 @@ def vacuum_crystallizer_balance(
         "solute_mass_fraction": (0.15, 0.2),
         "solubility_per_solvent": (0.3, 0.4),
     },
+    symbols={"solute_mass_fraction": "x_A"},
 )
 def evaporation_for_yield(
     mass_flow: MassFlow,
@@ -313,7 +325,7 @@ class KnownSoluteBalance(NamedTuple):
 
 @formula(
     source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
-    equation=r"\dot Q = \sum \dot m h|_{out} - \sum \dot m h|_{in}",
+    equation=r"\dot Q = C\,h_c(T) + L\,h_L(T) + \dot m_v\,h_v(T) - \dot m\,h(x, T_1)",
     title="Crystallizer at equilibrium for a solute of the library",
     typical={
         "mass_flow": (0.5, 5.0),
@@ -322,6 +334,7 @@ class KnownSoluteBalance(NamedTuple):
         "temperature_inlet": (330.0, 350.0),
         "evaporation": (0.0, 0.05),
     },
+    symbols={"temperature_inlet": "T_1"},
 )
 def crystallizer_balance_library(
     mass_flow: MassFlow,
@@ -373,6 +386,7 @@ def crystallizer_balance_library(
     source="kern1950, ch. 5",
     equation=r"\Delta T_{lm} = \frac{\Delta T_1 - \Delta T_2}{\ln(\Delta T_1/\Delta T_2)}",
     typical={"temperature_difference_inlet": (10.0, 30.0), "temperature_difference_outlet": (3.0, 9.0)},
+    symbols={"temperature_difference_inlet": r"\Delta T_1", "temperature_difference_outlet": r"\Delta T_2"},
 )
 def log_mean_temperature_difference(
     temperature_difference_inlet: PositiveTemperatureDifference,
@@ -398,9 +412,14 @@ def log_mean_temperature_difference(
 
 @formula(
     source="mullin2001, ch. 8; kern1950, ch. 20",
-    equation=r"S = \frac{|\dot Q|}{k\,\Delta T_{lm}}",
+    title="Cooling surface of a jacket",
+    equation=(
+        r"A = \frac{|\dot Q|}{h\,\Delta T_{lm}},\quad \Delta T_{lm} = \frac{\Delta T_1 - \Delta "
+        r"T_2}{\ln(\Delta T_1/\Delta T_2)}"
+    ),
     output="area",
     typical={"heat_duty": (1e4, 1e6)},
+    symbols={"temperature_difference_inlet": r"\Delta T_1", "temperature_difference_outlet": r"\Delta T_2"},
 )
 def area_jacket(
     heat_duty: Power,
@@ -428,7 +447,8 @@ def area_jacket(
 
 @formula(
     source="mullin2001, ch. 8",
-    equation=r"R_{max} = 1 - \frac{C^* (W - V)}{C_0 W}",
+    title="Yield of an anhydrous crystal",
+    equation=r"R = 1 - \frac{C^* (W - V)}{C W}",
     output="yield_fraction",
     typical={"solute_per_solvent": (0.4, 0.6), "solubility_per_solvent": (0.2, 0.3)},
 )

@@ -29,6 +29,7 @@ class BatchBalance(NamedTuple):
         "solute_fraction_of_crystal": (0.55, 1.0),
         "evaporated_mass": (0.0, 0.05),
     },
+    symbols={"solute_mass_fraction": "x_A"},
 )
 def crystallizer_batch_balance(
     mass: Mass,
@@ -68,7 +69,7 @@ class KnownSoluteBatch(NamedTuple):
 
 @formula(
     source="mullin2001, ch. 8; geankoplis2003, sec. 12.11",
-    equation=r"Q = \sum m h|_{end} - \sum m h|_{start}",
+    equation=r"Q = m_c\,h_c(T) + m_L\,h_L(T) + m_v\,h_v(T) - m\,h(x, T_1)",
     title="Crystals and heat from one charge of a solute of the library",
     typical={
         "mass": (1.0, 10.0),
@@ -77,6 +78,7 @@ class KnownSoluteBatch(NamedTuple):
         "temperature_inlet": (330.0, 350.0),
         "evaporated_mass": (0.0, 0.05),
     },
+    symbols={"temperature_inlet": "T_1"},
 )
 def crystallizer_batch_balance_library(
     mass: Mass,

@@ -23,6 +23,7 @@ from granum.crystallization.kinds import ForwardGrowthRate, ProductionRate
 
 @formula(
     source="randolph1988, ch. 8",
+    title="Population density with classified removal",
     equation=(
         r"n = n_0 \exp\left(-\frac{R\min(L,L_f) + \max(0,\min(L,L_p)-L_f) + " r"z\max(0,L-L_p)}{G\tau}\right)"
     ),
@@ -79,6 +80,7 @@ def population_density_classified(
 
 @formula(
     source="randolph1988, ch. 4",
+    title="Population density in a second stage",
     equation=r"n_2 = n_0\,\frac{a}{a-b}\left(e^{-L/a} - e^{-L/b}\right),\; a = G_1\tau_1,\; b = G_2\tau_2",
     output="population_density",
     typical={
@@ -86,6 +88,7 @@ def population_density_classified(
         "growth_length_first": (1e-4, 1.4e-4),
         "growth_length_second": (4e-5, 8e-5),
     },
+    symbols={"population_density": "n_2"},
 )
 def population_density_second_stage(
     crystal_size: Distance,
@@ -127,6 +130,7 @@ class ClassifyingProduction(NamedTuple):
     equation=r"\dot P = \frac{4 G M_T}{L_p},\quad B_0 = \frac{\dot P}{k_v \rho_c L_p^3}",
     title="Ideal product-classifying crystallizer",
     typical={"growth_rate": (2e-8, 2e-7)},
+    symbols={"product_size": "L_p"},
 )
 def production_classifying(
     growth_rate: ForwardGrowthRate,

@@ -45,8 +45,8 @@ def _nucleus(gamma: Any, energy_per_volume: Any, molecule: Any) -> CriticalNucle
 @formula(
     source="mullin2001, ch. 5",
     equation=(
-        r"r_c = \frac{2\gamma v_m}{\nu k T\ln\beta},\quad \Delta G^* = \tfrac{4\pi}{3}\gamma r_c^2,\quad N "
-        r"= \frac{4\pi r_c^3}{3 v_m}"
+        r"r_c = \frac{2\gamma v_m}{\nu k T\ln\beta},\quad \Delta G^* = \tfrac{4\pi}{3}\gamma "
+        r"r_c^2,\quad N = \frac{4\pi r_c^3}{3 v_m},\quad v_m = \frac{M}{\rho_c N_A}"
     ),
     title="Critical nucleus in a solution",
     typical={"supersaturation_ratio": (1.5, 10.0)},
@@ -88,7 +88,7 @@ def critical_nucleus(
 
 @formula(
     source="mullin2001, ch. 5",
-    equation=r"r_c = \frac{2\gamma v_m}{\nu k T \ln\beta}",
+    equation=r"r_c = \frac{2\gamma v_m}{\nu k T \ln\beta},\quad v_m = \frac{M}{\rho_c N_A}",
     typical={"supersaturation_ratio": (1.5, 10.0)},
 )
 def critical_radius(

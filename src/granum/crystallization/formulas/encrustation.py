@@ -12,6 +12,7 @@ OVERALL = "All resistances together pass less heat than the film on one side alo
 
 @formula(
     source="kern1950, ch. 20",
+    title="Wall temperature in a jacket",
     equation=r"T_w = T - \frac{U}{h_i}(T - T_j)",
     output="wall_temperature",
     typical={
@@ -20,6 +21,7 @@ OVERALL = "All resistances together pass less heat than the film on one side alo
         "heat_transfer_coefficient": (200.0, 600.0),
         "heat_transfer_coefficient_inside": (800.0, 2000.0),
     },
+    symbols={"heat_transfer_coefficient": "U", "heat_transfer_coefficient_inside": "h_i"},
 )
 def wall_temperature_jacket(
     temperature: Temperature,
@@ -49,6 +51,7 @@ def wall_temperature_jacket(
 
 @formula(
     source="mullin2001, ch. 9; kern1950, ch. 20",
+    title="Temperature difference without encrustation",
     equation=r"(T - T_j)_{max} = \frac{h_i}{U}(\Delta T_{max} - \Delta T)",
     output="temperature_difference",
     typical={
@@ -56,6 +59,11 @@ def wall_temperature_jacket(
         "undercooling": (0.5, 3.0),
         "heat_transfer_coefficient": (200.0, 600.0),
         "heat_transfer_coefficient_inside": (800.0, 2000.0),
+    },
+    symbols={
+        "heat_transfer_coefficient": "U",
+        "heat_transfer_coefficient_inside": "h_i",
+        "temperature_difference": "(T - T_j)_{max}",
     },
 )
 def temperature_difference_encrustation(

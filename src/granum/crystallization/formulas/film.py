@@ -30,7 +30,12 @@ from granum.numerics.smooth import safe_divide, safe_power
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 
 
-@formula(source="mullin2001, ch. 6", equation=r"G = \frac{k_a \Phi}{3 k_v \rho_c}", family="growth_formula")
+@formula(
+    source="mullin2001, ch. 6",
+    title="Growth rate from the mass flux",
+    equation=r"G = \frac{k_a \Phi}{3 k_v \rho_c}",
+    family="growth_formula",
+)
 def growth_rate_from_flux(
     growth_flux: MassFlux,
     crystal_density: Density,
@@ -163,7 +168,12 @@ def sherwood_number_levins_glastonbury(
     return 2.0 + 0.47 * eddy**0.62 * agitator_to_tank**0.17 * schmidt_number**0.36
 
 
-@formula(source="mullin2001, ch. 6", equation=r"k_d = \mathrm{Sh}\,D/L", output="diffusion_coefficient")
+@formula(
+    source="mullin2001, ch. 6",
+    title="Mass transfer coefficient from the Sherwood number",
+    equation=r"k_d = \mathrm{Sh}\,D/L",
+    output="diffusion_coefficient",
+)
 def diffusion_coefficient_sherwood(
     sherwood_number: PositiveNumber, diffusivity: Diffusivity, crystal_size: Length
 ) -> MassTransferCoefficient:

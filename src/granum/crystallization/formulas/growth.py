@@ -45,6 +45,7 @@ def arrhenius(activation_energy: Any, temperature: Any) -> Any:
 
 @formula(
     source="mullin2001, ch. 6",
+    title="Growth rate by a power law",
     equation=r"G = k_g\,e^{-E_g/RT}\,\sigma^g",
     family="growth_formula",
 )
@@ -103,6 +104,7 @@ class PowerLawGrowth(GrowthLaw):
 
 @formula(
     source="burton1951",
+    title="Growth rate on spirals",
     equation=r"G = A\,\frac{\sigma^2}{\sigma_1}\tanh\frac{\sigma_1}{\sigma}",
     family="growth_formula",
 )
@@ -158,6 +160,7 @@ class SpiralGrowth(GrowthLaw):
 
 @formula(
     source="ohara1973",
+    title="Growth rate by birth and spread",
     equation=(
         r"G = A_1\,\sigma^{2/3}\,(\ln(1+\sigma))^{1/6}\,\exp\left(-\frac{A_2 "
         r"(298.15/T)^2}{\ln(1+\sigma)}\right)"

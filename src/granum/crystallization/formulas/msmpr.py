@@ -52,7 +52,12 @@ def population_density(
     return nuclei_population_density * jnp.exp(-crystal_size / (growth_rate * residence_time))
 
 
-@formula(source="randolph1988, ch. 4", equation=r"B_0 = n_0 G", family="nucleation_formula")
+@formula(
+    source="randolph1988, ch. 4",
+    title="Nucleation rate of an MSMPR crystallizer",
+    equation=r"B_0 = n_0 G",
+    family="nucleation_formula",
+)
 def nucleation_rate_msmpr(
     nuclei_population_density: PopulationDensity, growth_rate: ForwardGrowthRate
 ) -> NucleationRate:
@@ -64,7 +69,12 @@ def nucleation_rate_msmpr(
     return nuclei_population_density * growth_rate
 
 
-@formula(source="randolph1988, ch. 4", equation=r"M_T = 6 k_v \rho_c n_0 (G\tau)^4", typical=_GROWTH)
+@formula(
+    source="randolph1988, ch. 4",
+    title="Magma density",
+    equation=r"M_T = 6 k_v \rho_c n_0 (G\tau)^4",
+    typical=_GROWTH,
+)
 def magma_density(
     nuclei_population_density: PopulationDensity,
     growth_rate: ForwardGrowthRate,
@@ -194,9 +204,11 @@ def size_factor(crystal_size: Distance, size_parameter: SizeParameter, size_expo
 
 @formula(
     source="abegg1968",
+    title="Population density with size-dependent growth",
     fitted={"size_exponent": (0.0, 1.0)},
     equation=r"n = n_0 (1+\gamma L)^{-b} \exp\left(\frac{1-(1+\gamma L)^{1-b}}{\gamma G_0\tau(1-b)}\right)",
     typical={"size_exponent": (0.1, 0.8), "crystal_size": (1e-5, 5e-4), **_GROWTH},
+    symbols={"growth_rate": "G_0"},
 )
 def population_density_size_dependent(
     crystal_size: Distance,
@@ -247,12 +259,14 @@ def relative_nucleation_order(
 
 @formula(
     source="randolph1988, ch. 4",
+    title="Dominant size after a change of operation",
     equation=(
         r"\frac{L_{D,2}}{L_{D,1}} = \left(\frac{\tau_2}{\tau_1}\right)^{\frac{i-1}{i+3}} "
         r"\left(\frac{M_{T,2}}{M_{T,1}}\right)^{\frac{1-j}{i+3}}"
     ),
     output="dominant_size",
     typical={"residence_time_ratio": (0.25, 4.0), "magma_density_ratio": (0.3, 3.0)},
+    symbols={"dominant_size": "L_{D,1}", "=dominant_size": "L_{D,2}"},
 )
 def dominant_size_changed(
     dominant_size: Length,
@@ -289,9 +303,11 @@ def dominant_size_changed(
 
 @formula(
     source="randolph1988, ch. 4",
-    equation=r"W(L) = w",
+    title="Crystal size at a given undersize",
+    equation=r"L = x\,G\,\tau,\quad 1 - e^{-x}\left(1 + x + \frac{x^2}{2} + \frac{x^3}{6}\right) = W",
     output="crystal_size",
     typical={"undersize_mass_fraction": (0.05, 0.95), **_GROWTH},
+    symbols={"undersize_mass_fraction": "W"},
 )
 def crystal_size_at_undersize(
     undersize_mass_fraction: Fraction, growth_rate: ForwardGrowthRate, residence_time: Time
@@ -314,6 +330,7 @@ def crystal_size_at_undersize(
     equation=r"\mathrm{CV} = \frac{L_{84} - L_{16}}{2 L_{50}}",
     output="coefficient_of_variation",
     typical={"percentile_16": (1e-4, 2e-4), "percentile_50": (3e-4, 4e-4), "percentile_84": (5e-4, 7e-4)},
+    symbols={"percentile_16": "L_{16}", "percentile_50": "L_{50}", "percentile_84": "L_{84}"},
 )
 def coefficient_of_variation(percentile_16: Length, percentile_50: Length, percentile_84: Length) -> Ratio:
     """Coefficient of variation of a size distribution by mass, from its 16 %, 50 % and 84 % sizes.

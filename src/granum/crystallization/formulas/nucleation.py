@@ -79,7 +79,10 @@ def _barrier(log_ratio: Any, gamma: Any, v: Any, T: Any, nu: Any, phi: Any) -> A
 @formula(
     source="mullin2001, ch. 5; volmer1939",
     fitted={"heterogeneous_factor": (0.0, 1.0)},
-    equation=r"\frac{\Delta G^*}{kT} = \frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}",
+    equation=(
+        r"\frac{\Delta G^*}{kT} = \frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2},\quad v_m = "
+        r"\frac{M}{\rho_c N_A}"
+    ),
     typical={"supersaturation_ratio": (1.5, 10.0)},
 )
 def nucleation_barrier(
@@ -127,8 +130,12 @@ def nucleation_barrier(
 
 @formula(
     source="mullin2001, ch. 5; volmer1939",
+    title="Nucleation rate by the classical theory",
     fitted={"heterogeneous_factor": (0.0, 1.0)},
-    equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)",
+    equation=(
+        r"B_0 = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right),\quad v_m "
+        r"= \frac{M}{\rho_c N_A}"
+    ),
     family="nucleation_formula",
     typical={
         "supersaturation_ratio": (2.0, 10.0),
@@ -179,7 +186,10 @@ def nucleation_rate_classical(
 @formula(
     source="mullin2001, ch. 5; mccabe2005, ch. 27; volmer1939",
     fitted={"heterogeneous_factor": (0.0, 1.0)},
-    equation=r"\beta = \exp\sqrt{\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 \nu^2 \ln(A/J)}}",
+    equation=(
+        r"\beta = \exp\sqrt{\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 \nu^2 \ln(A/B_0)}},\quad v_m = "
+        r"\frac{M}{\rho_c N_A}"
+    ),
     output="supersaturation_ratio",
     title="Supersaturation ratio for a nucleation rate",
     typical={"nucleation_rate": (1e6, 1e10), "interfacial_energy": (2e-3, 1e-2), "molar_mass": (0.05, 0.15)},
@@ -257,6 +267,7 @@ def interfacial_energy_mersmann(
 
 @formula(
     source="garside1985; mullin2001, ch. 5",
+    title="Secondary nucleation rate",
     equation=r"B_0 = k_b\,e^{-E_b/RT}\,\sigma^b\,M_T^j\,(N/N_0)^p",
     family="nucleation_formula",
 )

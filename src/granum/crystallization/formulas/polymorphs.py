@@ -25,9 +25,10 @@ NO_TRANSITION = (
 
 @formula(
     source="behme1991; mullin2001, ch. 7",
+    title="Solubility ratio of two polymorphs",
     equation=(
-        r"\ln\frac{x}{x'} = \frac{\Delta H_f}{R}\left(\frac{1}{T_m} - \frac1T\right) - \frac{\Delta "
-        r"H_f'}{R}\left(\frac{1}{T_m'} - \frac1T\right)"
+        r"\ln\beta = \ln\frac{x}{x'} = \frac{\Delta H_f}{R}\left(\frac{1}{T_m} - \frac1T\right) - "
+        r"\frac{\Delta H_f'}{R}\left(\frac{1}{T_m'} - \frac1T\right)"
     ),
     output="supersaturation_ratio",
     typical=_TYPICAL,
@@ -56,9 +57,11 @@ def supersaturation_ratio_polymorphs(
 
 @formula(
     source="behme1991",
+    title="Transition temperature of two polymorphs",
     equation=r"T_t = \frac{\Delta H_f' - \Delta H_f}{\Delta H_f'/T_m' - \Delta H_f/T_m}",
     output="temperature",
     typical=_TYPICAL,
+    symbols={"temperature": "T_t"},
 )
 def temperature_transition_polymorphs(
     enthalpy_of_fusion: PositiveMolarEnergy,

@@ -25,6 +25,7 @@ class Program(eqx.Module):
 
 @formula(
     source="mullin1971; jones1974",
+    title="Temperature of a cooling program",
     equation=r"T = T_0 - (T_0 - T_f)\left(\frac{t}{t_f}\right)^p",
     output="temperature",
     typical={

@@ -23,7 +23,7 @@ _TYPICAL = {"crystal_size": (1e-8, 1e-5)}
 
 @formula(
     source="mullin2001, ch. 3",
-    equation=r"\frac{C^*(L)}{C^*_\infty} = \exp\left(\frac{4\gamma M}{\nu R T \rho_c L}\right)",
+    equation=r"\beta = \frac{C^*(L)}{C^*_\infty} = \exp\left(\frac{4\gamma M}{\nu R T \rho_c L}\right)",
     output="supersaturation_ratio",
     typical=_TYPICAL,
 )
@@ -65,9 +65,14 @@ def supersaturation_ratio_gibbs_thomson(
 
 @formula(
     source="lifshitz1961",
-    equation=r"\bar r^3 - \bar r_0^3 = \frac{8\,\gamma D\,C^* M}{9\,R T \rho_c^2}\,t",
+    title="Crystal size after ripening",
+    equation=(
+        r"\left(\frac{L}{2}\right)^3 - \left(\frac{L_0}{2}\right)^3 = \frac{8\,\gamma D\,C^* M}{9\,R T "
+        r"\rho_c^2}\,t"
+    ),
     output="crystal_size",
     typical={"crystal_size": (1e-7, 1e-6), "solubility_concentration": (0.1, 10.0), "time": (1e3, 1e6)},
+    symbols={"crystal_size": "L_0", "=crystal_size": "L"},
 )
 def crystal_size_ripened(
     crystal_size: Length,

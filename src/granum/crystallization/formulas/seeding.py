@@ -28,9 +28,11 @@ from granum.particles.formulas.means import Shares, shares
 
 @formula(
     source="mullin2001, ch. 9",
-    equation=r"\frac{L_p}{L_s} = \left(\frac{M_p}{M_s}\right)^{1/3}",
+    title="Product size from the seed",
+    equation=r"L_p = L_s\left(\frac{M_p}{M_s}\right)^{1/3}",
     output="product_size",
     typical={"seed_mass": (0.1, 1.0), "product_mass": (10.0, 100.0)},
+    symbols={"product_size": "L_p"},
 )
 def product_size_from_seed(seed_size: Length, seed_mass: Mass, product_mass: Mass) -> Length:
     """Size of the product when everything that crystallizes grows on the seeds, none being born.
@@ -44,9 +46,11 @@ def product_size_from_seed(seed_size: Length, seed_mass: Mass, product_mass: Mas
 
 @formula(
     source="mullin2001, ch. 9",
+    title="Seed for a product size",
     equation=r"M_s = M_p \left(\frac{L_s}{L_p}\right)^3",
     output="seed_mass",
     typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "product_mass": (10.0, 100.0)},
+    symbols={"product_size": "L_p"},
 )
 def seed_mass_for_product(seed_size: Length, product_size: Length, product_mass: Mass) -> Mass:
     """Mass of seed of a given size for a product of a given size and mass, none being born.
@@ -60,7 +64,8 @@ def seed_mass_for_product(seed_size: Length, product_size: Length, product_mass:
 
 @formula(
     source="kubota2001",
-    equation=r"C_s^* = 2.17\times10^{-6}\,L_s^2\ (L_s\ \mathrm{in\ \mu m})",
+    title="Critical seed loading",
+    equation=r"C_s^* = 2.17\times10^{-6}\,L_s^2\ (L_s\text{ in }\mathrm{\mu m})",
     output="seed_loading",
     typical={"seed_size": (3e-5, 5e-4)},
 )
@@ -87,7 +92,10 @@ class SeedChart(NamedTuple):
 
 @formula(
     source="kubota2001; mullin2001, ch. 9",
-    equation=r"\frac{L_p}{L_s} = \left(\frac{1 + C_s}{C_s}\right)^{1/3}",
+    equation=(
+        r"\frac{L_p}{L_s} = \left(\frac{1 + C_s}{C_s}\right)^{1/3},\quad N_s = "
+        r"\frac{1}{k_v\,\rho_c\,L_s^3},\ a_s = \frac{k_a}{k_v\,\rho_c\,L_s}"
+    ),
     title="Seeding: ideal growth line",
     typical={"seed_loading": (0.005, 0.3)},
 )
@@ -113,9 +121,11 @@ def seed_chart(
 
 @formula(
     source="mullin2001, ch. 9; jones1974",
-    equation=r"G_{max} = \frac{L_p - L_s}{t_f}",
+    title="Time to grow to a size",
+    equation=r"t_f = \frac{L_p - L_s}{G}",
     output="duration",
     typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "growth_rate": (1e-8, 2e-7)},
+    symbols={"product_size": "L_p"},
 )
 def duration_for_growth(seed_size: Length, product_size: Length, growth_rate: ForwardGrowthRate) -> Time:
     """Time that seeds need to reach the product size at a constant growth rate in m/s.
@@ -138,9 +148,18 @@ class GrownSeed(NamedTuple):
 
 @formula(
     source="mccabe1929; mccabe2005, ch. 27",
-    equation=r"\frac{M_p}{M_s} = \sum_i w_i\left(1 + \frac{\Delta L}{L_i}\right)^3",
+    equation=(
+        r"\frac{M_p}{M_s} = \sum_i w_i\left(1 + \frac{\Delta L}{L_i}\right)^3,\quad L_i' = L_i + \Delta "
+        r"L"
+    ),
     title="Product of a seed with a size distribution (ΔL law)",
     typical={"seed_mass": (0.1, 1.0), "product_mass": (10.0, 100.0)},
+    symbols={
+        "class_sizes": "L_i",
+        "class_fractions": "w_i",
+        "class_sizes_product": "L_i'",
+        "class_fractions_product": "w_i'",
+    },
 )
 def grown_seed(
     class_sizes: Annotated[Length, Series("classes")],

@@ -55,7 +55,12 @@ def absolute_supersaturation(solute_per_solvent: MassRatio, solubility_per_solve
     return solute_per_solvent - solubility_per_solvent
 
 
-@formula(source="mullin2001, ch. 3", equation=r"\beta_x = \frac{C/(1+C)}{C^*/(1+C^*)}")
+@formula(
+    source="mullin2001, ch. 3",
+    title="Supersaturation ratio per mass of solution",
+    equation=r"\beta_x = \frac{C/(1+C)}{C^*/(1+C^*)}",
+    symbols={"supersaturation_ratio": r"\beta_x"},
+)
 def supersaturation_ratio_solution_basis(
     solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber
 ) -> Ratio:
@@ -90,7 +95,12 @@ def solute_mass_fraction(solute_per_solvent: MassRatio) -> MassFraction:
     return solute_per_solvent / (1.0 + solute_per_solvent)
 
 
-@formula(source="mullin2001, ch. 3", equation=r"C = x/(1-x)", output="solute_per_solvent")
+@formula(
+    source="mullin2001, ch. 3",
+    title="Solute per solvent from a mass fraction",
+    equation=r"C = x/(1-x)",
+    output="solute_per_solvent",
+)
 def solute_per_solvent_fraction(solute_mass_fraction: OpenFraction) -> MassRatio:
     """Mass ratio of anhydrous solute to solvent from the mass fraction in the solution.
 
@@ -102,9 +112,11 @@ def solute_per_solvent_fraction(solute_mass_fraction: OpenFraction) -> MassRatio
 
 @formula(
     source="mullin2001, ch. 3",
+    title="Hydrate per solvent from anhydrous solute",
     equation=r"C_h = \frac{C}{x_c - C\,(1 - x_c)}",
     output="solute_per_solvent",
     typical={"solute_per_solvent": (0.1, 0.5)},
+    symbols={"=solute_per_solvent": "C_h"},
 )
 def solute_per_solvent_hydrate(
     solute_per_solvent: MassRatio, solute_fraction_of_crystal: SoluteShare
@@ -153,7 +165,10 @@ def solute_per_solvent_from_hydrate(
 
 
 @formula(
-    source="mullin2001, ch. 3", equation=r"\frac{\Delta\mu}{RT} = \nu \ln \beta", family="supersaturation"
+    source="mullin2001, ch. 3",
+    title="Thermodynamic driving force",
+    equation=r"S = \frac{\Delta\mu}{RT} = \nu \ln \beta",
+    family="supersaturation",
 )
 def driving_force_thermodynamic(
     supersaturation_ratio: PositiveNumber, ions_per_formula: PositiveNumber = 1.0

@@ -28,9 +28,11 @@ from granum.estimation.lines import straight_line
 
 @formula(
     source="nyvlt1968; kubota2008",
+    title="Metastable undercooling",
     equation=r"\Delta T_{max} = (R/K)^{1/m}",
     output="undercooling",
     typical={"cooling_rate": (1e-4, 1e-2), "nyvlt_constant": (1e-6, 1e-4), "nyvlt_order": (2.0, 5.0)},
+    symbols={"undercooling": r"\Delta T_{max}"},
 )
 def undercooling_metastable(
     cooling_rate: TemperatureRate, nyvlt_constant: TemperatureRate, nyvlt_order: PositiveNumber

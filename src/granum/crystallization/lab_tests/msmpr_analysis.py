@@ -29,8 +29,13 @@ from granum.estimation.lines import straight_line
 
 @formula(
     source="randolph1988, ch. 4; green2008, sec. 18",
-    equation=r"n_i = \frac{M_T w_i}{k_v \rho_c \bar L_i^3 \Delta L_i}",
+    title="Population densities of sieve classes",
+    equation=(
+        r"n_i = \frac{M_T w_i}{k_v \rho_c \bar L_i^3 \Delta L_i},\quad \bar L_i = \tfrac12(L_{i-1} + "
+        r"L_i),\ \Delta L_i = L_i - L_{i-1}"
+    ),
     output="population_density",
+    symbols={"class_edges": "L_i", "class_fractions": "w_i", "population_density": "n_i"},
 )
 def population_densities(
     class_edges: Annotated[Length, Series("edges")],

@@ -31,7 +31,8 @@ from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_v
 from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, median_of
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import FANNED, fanned
 
 LEAST = 1e-9
 MILD_STEEL = 1.2e9  # Pa, flow stress near the Vickers hardness
@@ -99,6 +100,8 @@ class GasCyclone(Unit):
         "saltation": Limit("inlet velocity over saltation velocity", 0.8, 1.36, "dimensionless", "kalen1974"),
         "wear": Limit("wear of the wall in a year of operation", 0.0, ALLOWANCE, "mm", OWN_LIMIT),
     }
+
+    utilities: ClassVar[Utilities] = FANNED
 
     @property
     def dimensions(self) -> Dimensions:
@@ -169,3 +172,8 @@ class GasCyclone(Unit):
             "saltation": inside.velocity / inside.saltation,
             "wear": 1e3 * YEAR * inside.wear,
         }
+
+    def drawn(
+        self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {"electric_power_fan": fanned(feed.gas_volume_flow, inside.pressure_drop)}

@@ -16,7 +16,8 @@ from granum.cyclones.formulas.hydrocyclones import (
 )
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import PUMPED, pumped
 
 
 class Split(NamedTuple):
@@ -60,6 +61,8 @@ class Hydrocyclone(Unit):
             "castilho2000",
         ),
     }
+
+    utilities: ClassVar[Utilities] = PUMPED
 
     def cut(self, feed: Stream, density: Any) -> HydrocycloneFigures:
         """Cut, pressure drop, split and sharpness for solids of a density."""
@@ -114,3 +117,9 @@ class Hydrocyclone(Unit):
         self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, figures: SplitFigures, feed: Stream
     ) -> dict[str, Any]:
         return {"drop": figures.pressure_drop, "solids": feed.solids_volume_fraction, "sinking": inside[1]}
+
+    def drawn(
+        self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, figures: SplitFigures, feed: Stream
+    ) -> dict[str, Any]:
+        drop = jnp.ravel(jnp.asarray(figures.pressure_drop))[0]
+        return {"electric_power_pump": pumped(feed.slurry_volume_flow, drop)}

@@ -46,7 +46,7 @@ def heavier(rho_p: Any, rho: Any) -> Any:
 
 @formula(
     source="lapple1951",
-    equation=r"d_{50} = \sqrt{\frac{9\eta b}{2\pi N v_i(\rho_p - \rho_g)}}",
+    equation=r"d_{50} = \sqrt{\frac{9\eta b}{2\pi N v(\rho_p - \rho_f)}}",
     output="cut_size",
     typical={**TYPICAL, "velocity": (12.0, 25.0)},
 )
@@ -100,10 +100,8 @@ def turn_number_lapple(inlet_height: Length, cylinder_height: Length, height: Le
 
 @formula(
     source="rosin1932; lapple1951",
-    equation=(
-        r"d_p = \sqrt{\frac{9\eta(R_2-R_1)}{\pi N V(\rho_D-\rho_c)}} = \frac34\sqrt{\frac{\eta d_c}{\pi "
-        r"V\rho_D}}"
-    ),
+    title="Cut size from the number of turns",
+    equation=r"d_{50} = \sqrt{\frac{9\,\eta\,(R_2 - R_1)}{\pi N v\,(\rho_p - \rho_f)}},\quad R_2 = \frac D2",
     output="cut_size",
     typical={**TYPICAL, "velocity": (1.0, 20.0)},
 )
@@ -150,7 +148,10 @@ def cut_size_turns(
 @formula(
     source="lapple1951",
     family="cyclone_efficiency",
-    equation=r"\eta = \frac{1}{1 + (d_{50}/d_p)^2}",
+    equation=(
+        r"\eta = \frac{1}{1 + (d_{50}/d_p)^2},\quad d_{50} = d_{50}(Q, \rho_p, \rho_f, \eta; D, a, b, "
+        r"D_e, S, h, H, B)"
+    ),
     typical=TYPICAL,
 )
 @takes_lengths
@@ -194,7 +195,10 @@ def cyclone_efficiency_lapple(
 
 @formula(
     source="leith1972; leith1973",
-    equation=r"G = \frac{8 K_c}{K_a^2 K_b^2}",
+    equation=(
+        r"G = \frac{8 K_c}{K_a^2 K_b^2},\quad K_a = \frac aD,\ K_b = \frac bD,\ K_c = K_c(D, D_e, S, h, "
+        r"H, B)"
+    ),
     output="configuration_number",
     typical=TYPICAL,
 )
@@ -251,7 +255,7 @@ def vortex_exponent_alexander(diameter: Length, temperature: Temperature = 293.1
     family="cyclone_efficiency",
     equation=(
         r"\eta = 1 - \exp\left\{-2\left[\frac{G\tau Q(n+1)}{D^3}\right]^{1/(2n+2)}\right\},\ \tau = "
-        r"\frac{\rho_p d_p^2}{18\eta}"
+        r"\frac{(\rho_p - \rho_f) d_p^2}{18\eta},\quad G = G(D, a, b, D_e, S, h, H, B)"
     ),
     typical=TYPICAL,
 )
@@ -308,7 +312,9 @@ def core_height(cyclone: Dimensions) -> Any:
     source="barth1956; hoffmann2008",
     equation=(
         r"\frac{v_\theta}{v_x} = \left(\frac{\alpha a b}{\pi R_x R_i} + \frac{\lambda "
-        r"H_c}{R_x}\right)^{-1},\ d_{50} = \sqrt{\frac{9\eta Q}{\pi H_c (\rho_p - \rho_g) v_\theta^2}}"
+        r"H_c}{R_x}\right)^{-1},\ d_{50} = \sqrt{\frac{9\eta Q}{\pi H_c (\rho_p - \rho_f) "
+        r"v_\theta^2}},\quad R_x = \frac{D_e}{2},\ R_i = \frac{D - b}{2},\ v_x = \frac{Q}{\pi R_x^2},\ "
+        r"H_c = H_c(D, D_e, S, h, H, B)"
     ),
     output="cut_size",
     typical=TYPICAL,
@@ -360,7 +366,10 @@ def core_flow(Q: Any, cyclone: Dimensions, friction: Any) -> tuple[Any, Any, Any
 @formula(
     source="barth1956; hoffmann2008",
     family="cyclone_efficiency",
-    equation=r"\eta = \frac{1}{1 + (d_{50}/d_p)^m}",
+    equation=(
+        r"\eta = \frac{1}{1 + (d_{50}/d_p)^m},\quad d_{50} = d_{50}(Q, \rho_p, \rho_f, \eta; D, a, b, "
+        r"D_e, S, h, H, B)"
+    ),
     fitted={"grade_exponent": (2.0, 6.0)},
     typical=TYPICAL,
 )
@@ -436,8 +445,9 @@ def muschelknautz_flow(
 @formula(
     source="muschelknautz1972; hoffmann2008, ch. 6",
     equation=(
-        r"v_{\theta} = \frac{v_w R/R_x}{1 + f A_R v_w\sqrt{R/R_x}/(2Q)},\ d_{50} = \sqrt{\frac{18\eta\,0.9 "
-        r"Q}{2\pi(\rho_p-\rho_g)v_\theta^2(H-S)}}"
+        r"v_{\theta} = \frac{v_w R/R_x}{1 + f A_R v_w\sqrt{R/R_x}/(2Q)},\ d_{50} = "
+        r"\sqrt{\frac{18\eta\,0.9 Q}{2\pi(\rho_p-\rho_f)v_\theta^2(H-S)}},\quad R = \frac D2,\ R_x = "
+        r"\frac{D_e}{2},\ v_w = v_w(Q, a, b, D),\ A_R = A_R(D, D_e, S, h, H, B)"
     ),
     output="cut_size",
     typical=TYPICAL,
@@ -488,7 +498,10 @@ def cut_size_muschelknautz(
 @formula(
     source="muschelknautz1972; hoffmann2008, ch. 6",
     family="cyclone_efficiency",
-    equation=r"\eta = \frac{1}{1 + (d_{50}/d_p)^m}",
+    equation=(
+        r"\eta = \frac{1}{1 + (d_{50}/d_p)^m},\quad d_{50} = d_{50}(Q, \rho_p, \rho_f, \eta; D, a, b, "
+        r"D_e, S, h, H, B)"
+    ),
     fitted={"grade_exponent": (2.0, 6.0)},
     typical=TYPICAL,
 )
@@ -538,6 +551,7 @@ def cyclone_efficiency_muschelknautz(
     source="muschelknautz1972; hoffmann2008, ch. 6",
     equation=r"c_{oL} = 0.025\,\frac{d_{50}}{d_{med}}(10 c_0)^k",
     typical={"dust_loading": (0.01, 2.0), "cut_size": (1e-6, 4e-6), "median_diameter": (1e-5, 3e-5)},
+    symbols={"median_diameter": "d_{med}"},
 )
 def limit_loading_muschelknautz(
     dust_loading: PositiveNumber, cut_size: Length, median_diameter: Length

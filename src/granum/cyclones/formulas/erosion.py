@@ -30,8 +30,8 @@ def striking_angle(diameter: Any, inlet_width: Any) -> Any:
 @formula(
     source="finnie1960; hutchings1992",
     equation=(
-        r"w = \frac{c\,\dot m'' v^2}{4 p}\begin{cases}\sin 2\alpha - 3\sin^2\alpha & \tan\alpha \le "
-        r"1/3\\ \tfrac13\cos^2\alpha\end{cases}"
+        r"w = \frac{c\,G v^2}{4 p}\begin{cases}\sin 2\alpha - 3\sin^2\alpha & \tan\alpha \le 1/3\\ "
+        r"\tfrac13\cos^2\alpha\end{cases}"
     ),
     fitted={"cutting_share": (0.03, 0.6)},
     typical={
@@ -70,10 +70,11 @@ def wear_velocity_finnie(
 
 @formula(
     source="finnie1960; hoffmann2008, ch. 12; hutchings1992",
+    title="Wear at the inlet of a cyclone",
     output="wear_velocity",
     equation=(
-        r"w = w(\alpha),\ \dot m'' = c\,v\sin\alpha,\ \tan\alpha = \frac{2\tau v}{D},\ \cos\alpha \ge 1 - "
-        r"\frac{2b}{D}"
+        r"w = w_F(v, G\sin\alpha, \alpha, p),\quad \tan\alpha = \frac{2\tau v}{D},\ \cos\alpha \ge 1 - "
+        r"\frac{2b}{D},\quad \tau = \frac{\rho_p d_p^2}{18\,\eta}"
     ),
     fitted={"cutting_share": (0.03, 0.6)},
     typical={

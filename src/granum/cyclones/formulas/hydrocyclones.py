@@ -45,8 +45,8 @@ class HydrocycloneFigures(NamedTuple):
 @formula(
     source="plitt1976; flintoff1987",
     equation=(
-        r"d_{50c} = "
-        r"\frac{39.7\,D_c^{0.46}D_i^{0.6}D_o^{1.21}\eta^{0.5}e^{0.063\varphi}}{D_u^{0.71}h^{0.38}Q^{0.45}[(\rho_s-\rho)/1.6]^{0.5}}"
+        r"d_{50} = "
+        r"\frac{39.7\,D^{0.46}D_i^{0.6}D_e^{1.21}\eta^{0.5}e^{0.063\varphi}}{D_u^{0.71}h^{0.38}Q^{0.45}[(\rho_p-\rho_f)/1.6]^{0.5}}"
     ),
     typical=SLURRY,
 )
@@ -108,7 +108,7 @@ def hydrocyclone_plitt(
 
 @formula(
     source="rietema1961; svarovsky2001",
-    equation=r"\mathrm{Cy}_{50} = \frac{d_{50}^2(\rho_s-\rho)L\,\Delta p}{\eta\rho Q} = 3.5",
+    equation=r"\mathrm{Cy}_{50} = \frac{d_{50}^2(\rho_p-\rho_f)L\,\Delta p}{\eta\rho_f Q} = 3.5",
     output="cut_size",
     typical=SLURRY,
 )
@@ -146,9 +146,11 @@ def cut_size_rietema(
 @formula(
     source="castilho2000; svarovsky2001",
     equation=(
-        r"\mathrm{Stk}'_{50}\mathrm{Eu} = 0.0474\left[\ln\frac{1}{R_w}\right]^{0.742}e^{8.96 "
-        r"C_v},\ \mathrm{Eu} = 371.5\,\mathrm{Re}^{0.116}e^{-2.12 C_v},\ R_w = "
-        r"1218\left(\frac{D_u}{D_c}\right)^{4.75}\mathrm{Eu}^{-0.30}"
+        r"\mathrm{Stk}'_{50}\mathrm{Eu} = 0.0474\left[\ln\frac{1}{R_f}\right]^{0.742}e^{8.96 \varphi},\ "
+        r"\mathrm{Eu} = 371.5\,\mathrm{Re}^{0.116}e^{-2.12 \varphi},\ R_f = "
+        r"1218\left(\frac{D_u}{D}\right)^{4.75}\mathrm{Eu}^{-0.30},\quad \mathrm{Stk}'_{50} = "
+        r"\frac{d_{50}^2\,(\rho_p - \rho_f)\,v}{18\,\eta\,D},\ \mathrm{Re} = \frac{\rho_f v D}{\eta},\ "
+        r"v = \frac{4Q}{\pi D^2},\quad \Delta p = \mathrm{Eu}\,\frac{\rho_f v^2}{2}"
     ),
     fitted={"solids_volume_fraction": (0.0, 0.1)},
     typical={**SLURRY, "underflow_diameter": (0.01, 0.018)},
@@ -193,7 +195,7 @@ def hydrocyclone_castilho_medronho(
 
 @formula(
     source="svarovsky2001",
-    equation=r"G = R_w + (1 - R_w)\left[1 - e^{-\ln 2\,(d/d_{50})^m}\right]",
+    equation=r"G = R_f + (1 - R_f)\left[1 - e^{-\ln 2\,(d_p/d_{50})^n}\right]",
     typical={
         "cut_size": (5e-6, 3e-5),
         "sharpness": (2.0, 3.5),

@@ -43,10 +43,12 @@ def swirl(Q: Any, cyclone: Dimensions, friction: Any) -> Any:
     family="cyclone_efficiency",
     equation=(
         r"\eta = 1 - \frac{m - a}{b}\,e^{-A(S - a_e/2)},\quad m = \frac{a+d}{2} + "
-        r"\sqrt{\left(\frac{a-d}{2}\right)^2 + bc}"
+        r"\sqrt{\left(\frac{a-d}{2}\right)^2 + bc},\quad (A, a, b, c, d) = F(d_p, Q, \rho_p, \rho_f, "
+        r"\eta; D, a_e, b_e, D_e, S, h, H, B)"
     ),
     fitted={"velocity": (5.0, 20.0)},
     typical={**TYPICAL, "diffusivity": (0.01, 0.015), "wall_friction": (0.006, 0.009)},
+    symbols={"inlet_height": "a_e", "inlet_width": "b_e"},
 )
 @takes_lengths
 def cyclone_efficiency_mothes_loffler(

@@ -17,7 +17,13 @@ from granum.particles.formulas.means import Shares, shares
 BODY = {**TYPICAL, "area_inlet": (0.08, 0.12)}
 
 
-@formula(source="richardson2002, ch. 1", equation=r"E = \sum_i x_i E_i", output="removal_efficiency")
+@formula(
+    source="richardson2002, ch. 1",
+    title="Removal efficiency from the grades",
+    equation=r"E = \sum_i x_i E_i",
+    output="removal_efficiency",
+    symbols={"class_fractions": "x_i"},
+)
 def removal_efficiency_grades(
     class_fractions: Shares, class_efficiencies: Annotated[Fraction, Series("classes")]
 ) -> Fraction:
@@ -39,9 +45,11 @@ def removal_efficiency_grades(
 
 @formula(
     source="richardson2002, ch. 1",
+    title="Settling velocity of the grains retained (Stairmand)",
     equation=r"v_0 = \frac{0.2\,A_i^2 D_e\,g}{\pi H D Q}",
     output="terminal_velocity",
     typical=BODY,
+    symbols={"area_inlet": "A_i", "terminal_velocity": "v_0"},
 )
 def terminal_velocity_retained_stairmand(
     volume_flow: VolumeFlow, diameter: Length, outlet_diameter: Length, height: Length, area_inlet: Area
@@ -68,10 +76,12 @@ def terminal_velocity_retained_stairmand(
 @formula(
     source="richardson2002, ch. 1",
     equation=(
-        r"d = \sqrt{\frac{18\eta v_0}{(\rho_p-\rho_g)g}},\quad v_0 = \frac{0.2\,A_i^2 " r"D_e\,g}{\pi H D Q}"
+        r"d_{50} = \sqrt{\frac{18\eta v_0}{(\rho_p-\rho_f)g}},\quad v_0 = \frac{0.2\,A_i^2 D_e\,g}{\pi "
+        r"H D Q}"
     ),
     output="cut_size",
     typical=BODY,
+    symbols={"area_inlet": "A_i"},
 )
 def cut_size_stairmand(
     volume_flow: VolumeFlow,

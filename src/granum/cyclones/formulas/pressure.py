@@ -31,7 +31,7 @@ def inlet_over_outlet(cyclone: Dimensions) -> Any:
 
 @formula(
     source="shepherd1939; cooper2011",
-    equation=r"N_H = 16\,\frac{ab}{D_e^2}",
+    equation=r"N_H(D, a, b, D_e, S, h, H, B) = 16\,\frac{ab}{D_e^2}",
     family="inlet_heads",
     typical=TYPICAL,
 )
@@ -49,7 +49,7 @@ def inlet_heads_shepherd_lapple(cyclone: Dimensions) -> PositiveNumber:
 
 @formula(
     source="casal1983",
-    equation=r"N_H = 11.3\left(\frac{ab}{D_e^2}\right)^2 + 3.33",
+    equation=r"N_H(D, a, b, D_e, S, h, H, B) = 11.3\left(\frac{ab}{D_e^2}\right)^2 + 3.33",
     family="inlet_heads",
     typical=TYPICAL,
 )
@@ -82,7 +82,10 @@ def inlet_heads_ramachandran(cyclone: Dimensions) -> PositiveNumber:
 
 @formula(
     source="stairmand1949; hoffmann2008",
-    equation=r"N_H = 1 + 2q^2\left[\frac{2(D-b)}{D_e} - 1\right] + 2\left(\frac{4ab}{\pi D_e^2}\right)^2",
+    equation=(
+        r"N_H(D, a, b, D_e, S, h, H, B) = 1 + 2q^2\left[\frac{2(D-b)}{D_e} - 1\right] + "
+        r"2\left(\frac{4ab}{\pi D_e^2}\right)^2"
+    ),
     family="inlet_heads",
     typical=TYPICAL,
 )
@@ -108,9 +111,10 @@ def inlet_heads_stairmand(
 @formula(
     source="barth1956; hoffmann2008",
     equation=(
-        r"\Delta p = \frac{\rho v_x^2}{2}\left\{\frac{D_e}{D}\left[\frac{1}{(v_x/v_\theta - "
+        r"\Delta p = \frac{\rho_f v_x^2}{2}\left\{\frac{D_e}{D}\left[\frac{1}{(v_x/v_\theta - "
         r"2\lambda(H-S)/D_e)^2} - \frac{v_\theta^2}{v_x^2}\right] + "
-        r"K\left(\frac{v_\theta}{v_x}\right)^{4/3} + \left(\frac{v_\theta}{v_x}\right)^2\right\}"
+        r"K\left(\frac{v_\theta}{v_x}\right)^{4/3} + \left(\frac{v_\theta}{v_x}\right)^2\right\},\quad "
+        r"v_x = \frac{4Q}{\pi D_e^2},\ v_\theta = v_\theta(v_x, a, b, h, B)"
     ),
     output="pressure_drop",
     typical=TYPICAL,
@@ -141,8 +145,10 @@ def pressure_drop_barth(
 @formula(
     source="muschelknautz1972; hoffmann2008, ch. 6",
     equation=(
-        r"\Delta p = \frac{f A_R\rho(v_w v_\theta)^{1.5}}{2\cdot 0.9 Q} + \frac{\rho v_x^2}{2}\left[2 + "
-        r"\left(\frac{v_\theta}{v_x}\right)^2 + 3\left(\frac{v_\theta}{v_x}\right)^{4/3}\right]"
+        r"\Delta p = \frac{f A_R\rho_f(v_w v_\theta)^{1.5}}{2\cdot 0.9 Q} + \frac{\rho_f "
+        r"v_x^2}{2}\left[2 + \left(\frac{v_\theta}{v_x}\right)^2 + "
+        r"3\left(\frac{v_\theta}{v_x}\right)^{4/3}\right],\quad v_x = \frac{4Q}{\pi D_e^2},\ (v_w, "
+        r"v_\theta, f, A_R) = F(Q, \rho_p, \rho_f; D, a, b, D_e, S, h, H, B)"
     ),
     output="pressure_drop",
     typical=TYPICAL,
@@ -172,7 +178,7 @@ def pressure_drop_muschelknautz(
 
 @formula(
     source="briggs1946",
-    equation=r"\frac{\Delta p}{\Delta p_0} = \frac{1}{1 + 0.0086\sqrt{c}},\ c\ \text{in g/m}^3",
+    equation=r"\frac{\Delta p}{\Delta p_0} = \frac{1}{1 + 0.0086\sqrt{c}},\ c\text{ in }\mathrm{g/m^3}",
     typical={"concentration": (0.001, 1.0)},
 )
 def loading_factor_briggs(concentration: Concentration) -> PositiveNumber:
@@ -187,8 +193,8 @@ def loading_factor_briggs(concentration: Concentration) -> PositiveNumber:
 @formula(
     source="kalen1974; cooper2011",
     equation=(
-        r"v_s = 4.913\,W\,\frac{(b/D)^{0.4} D^{0.067} v_i^{2/3}}{(1 - b/D)^{1/3}},\ W = \left[\frac{4 "
-        r"g\eta(\rho_p-\rho_g)}{3\rho_g^2}\right]^{1/3}"
+        r"v_s = 4.913\,W\,\frac{(b/D)^{0.4} D^{0.067} v^{2/3}}{(1 - b/D)^{1/3}},\ W = \left[\frac{4 "
+        r"g\eta(\rho_p-\rho_f)}{3\rho_f^2}\right]^{1/3}"
     ),
     typical={**TYPICAL, "velocity": (12.0, 25.0)},
 )

@@ -13,7 +13,11 @@ from granum.cyclones.formulas.efficiency import TYPICAL, heavier
 
 @formula(
     source="rhodes2008, ch. 9; stairmand1951",
-    equation=r"\mathrm{Stk}_{50} = \frac{d_{50}^2(\rho_p-\rho_g)v}{18\eta D},\quad v = \frac{4Q}{\pi D^2}",
+    title="Cut size of similar cyclones",
+    equation=(
+        r"\mathrm{Stk}_{50} = \frac{d_{50}^2(\rho_p-\rho_f)v}{18\eta D},\quad v = \frac{4Q}{\pi "
+        r"D^2},\quad d_{50} = \sqrt{\frac{18\,\eta\,D\,\mathrm{Stk}_{50}}{(\rho_p - \rho_f)\,v}}"
+    ),
     output="cut_size",
     typical=TYPICAL,
 )
@@ -57,7 +61,8 @@ def cut_size_similar(
 
 @formula(
     source="rhodes2008, ch. 9; stairmand1951",
-    equation=r"\Delta p = \mathrm{Eu}\,\frac{\rho_g v^2}{2},\quad v = \frac{4Q}{\pi D^2}",
+    title="Pressure drop of similar cyclones",
+    equation=r"\Delta p = \mathrm{Eu}\,\frac{\rho_f v^2}{2},\quad v = \frac{4Q}{\pi D^2}",
     output="pressure_drop",
     typical=TYPICAL,
 )
@@ -78,7 +83,8 @@ def pressure_drop_similar(
 
 @formula(
     source="rhodes2008, ch. 9",
-    equation=r"D = \sqrt{\frac{4Q}{\pi}}\left(\frac{\mathrm{Eu}\,\rho_g}{2\Delta p}\right)^{1/4}",
+    title="Diameter of similar cyclones",
+    equation=r"D = \sqrt{\frac{4Q}{\pi}}\left(\frac{\mathrm{Eu}\,\rho_f}{2\Delta p}\right)^{1/4}",
     output="diameter",
     typical={**TYPICAL, "pressure_drop": (500.0, 1500.0)},
 )

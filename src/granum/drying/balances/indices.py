@@ -40,6 +40,11 @@ def _check_equilibrium(fresh: Any, equilibrium: Any) -> None:
     equation=r"\eta_m = \frac{w_2 - w_a}{w_{2e} - w_a}",
     typical=_AIR,
     title="Mass efficiency of a dryer",
+    symbols={
+        "humidity_ratio_fresh": "w_a",
+        "humidity_ratio_outlet": "w_2",
+        "humidity_ratio_equilibrium": "w_{2e}",
+    },
 )
 def mass_efficiency(
     humidity_ratio_fresh: HumidityRatio,
@@ -72,6 +77,12 @@ def mass_efficiency(
     equation=r"\mathrm{CEM} = \frac{h_1 - h_a}{w_2 - w_a}",
     typical=_AIR,
     title="Energy per mass of water evaporated (CEM)",
+    symbols={
+        "enthalpy_fresh": "h_a",
+        "enthalpy_inlet": "h_1",
+        "humidity_ratio_fresh": "w_a",
+        "humidity_ratio_outlet": "w_2",
+    },
 )
 def energy_per_water(
     enthalpy_fresh: SpecificEnergy,
@@ -102,6 +113,7 @@ def latent_heat(temperature: Any) -> Any:
     fitted={"temperature": (ZERO_CELSIUS, 453.15)},
     typical={"energy_per_water": (2.4e6, 6.5e6), "temperature": (295.0, 360.0)},
     title="Energy consumption ratio (RCE)",
+    symbols={"temperature": r"\theta"},
 )
 def energy_consumption_ratio(energy_per_water: SpecificEnergy, temperature: Temperature) -> Ratio:
     """Energy spent per kilogram of water over its heat of vaporization at the temperature of drying.
@@ -119,9 +131,10 @@ def energy_consumption_ratio(energy_per_water: SpecificEnergy, temperature: Temp
 
 @formula(
     source=_NOTES,
-    equation=r"\mathrm{PE} = \dot m_{as}\,(w_{2e} - w_a)",
+    equation=r"\mathrm{PE} = G\,(w_{2e} - w_a)",
     typical=_AIR,
     title="Evaporative capacity (PE)",
+    symbols={"humidity_ratio_fresh": "w_a", "humidity_ratio_equilibrium": "w_{2e}"},
 )
 def evaporative_capacity(
     dry_gas_flow: MassFlow, humidity_ratio_fresh: HumidityRatio, humidity_ratio_equilibrium: HumidityRatio
@@ -140,10 +153,11 @@ def evaporative_capacity(
 
 @formula(
     source="treybal1980, ch. 12; " + _NOTES,
-    equation=r"\dot m_{as} = \frac{\dot m_e}{w_2 - w_1}",
+    equation=r"G = \frac{\dot m_e}{w_2 - w_1}",
     output="dry_gas_flow",
     typical=_AIR | {"evaporation_rate": (0.01, 0.1), "humidity_ratio_inlet": (0.005, 0.01)},
     title="Dry gas that carries off the water",
+    symbols={"humidity_ratio_inlet": "w_1", "humidity_ratio_outlet": "w_2"},
 )
 def dry_gas_flow_evaporation(
     evaporation_rate: MassFlow, humidity_ratio_inlet: HumidityRatio, humidity_ratio_outlet: HumidityRatio
@@ -184,7 +198,7 @@ def moisture_extraction_rate(evaporation_rate: MassFlow, shaft_power: Power) -> 
 @formula(
     source=_NOTES,
     fitted={"temperature": (273.15, 453.15)},
-    equation=r"\eta = \frac{\dot m_e\,L_v}{\dot Q}",
+    equation=r"\eta = \frac{\dot m_e\,L_v}{\dot Q} = \frac{L_v(T)}{\mathrm{CEM}}",
     typical={"energy_per_water": (2.6e6, 6.5e6), "temperature": (295.0, 360.0)},
     title="Thermal efficiency of a dryer",
 )

@@ -52,9 +52,20 @@ class StagedHeating(NamedTuple):
 @formula(
     source="keey1978; mujumdar2014; wagner2002; iapws2011melting",
     fitted={"temperature_fresh": (213.0, 623.2), "temperature_inlet": (213.0, 623.2)},
-    equation=r"q = \sum_k (h_{1,k} - h_{2,k-1}),\qquad \mathrm{CEM} = \frac{q}{w_{2,n} - w_0}",
+    equation=(
+        r"q = \sum_k (h_{1,k} - h_{2,k-1}),\qquad \mathrm{CEM} = \frac{q}{w_{2,n} - w_0},\qquad h_{1,k} "
+        r"= h(T_1, w_{2,k-1}),\ h_{2,k} = h_{1,k},\ h_{2,0} = h(T_0, w_0),\ w_{2,k} = w(T_{2,k}, "
+        r"\varphi_2)"
+    ),
     typical={**_FRESH, "temperature_inlet": (335.0, 360.0)},
     title="Dryer with staged heating",
+    symbols={
+        "temperature_fresh": "T_0",
+        "humidity_ratio_fresh": "w_0",
+        "temperature_inlet": "T_1",
+        "temperature_outlet": "T_2",
+        "humidity_ratio_outlet": "w_2",
+    },
 )
 def staged_heating(
     temperature_fresh: Temperature,
@@ -120,11 +131,19 @@ class HeatRecovery(NamedTuple):
     source="keey1978; mujumdar2014; wagner2002; iapws2011melting",
     fitted={"temperature_fresh": (213.0, 623.2), "temperature_outlet": (213.0, 623.2)},
     equation=(
-        r"q = \varepsilon\,\min\!\left(g\,[h(T_2, w_0) - h_0],\; h_2 - h(T_0, w_s) - (w_2 - w_s) "
+        r"q_r = \varepsilon\,\min\!\left(g\,[h(T_2, w_0) - h_0],\; h_2 - h(T_0, w_s) - (w_2 - w_s) "
         r"h_l\right)"
     ),
     typical={**_FRESH, "temperature_outlet": (320.0, 350.0), "humidity_ratio_outlet": (0.03, 0.06)},
     title="Recovery of heat from the exhaust",
+    symbols={
+        "temperature_outlet": "T_2",
+        "humidity_ratio_outlet": "w_2",
+        "temperature_fresh": "T_0",
+        "humidity_ratio_fresh": "w_0",
+        "temperature_fresh_heated": "T_0'",
+        "humidity_ratio_exhaust": "w_x",
+    },
 )
 def exhaust_heat_recovery(
     temperature_outlet: Temperature,
@@ -208,7 +227,8 @@ class HeatPump(NamedTuple):
     fitted={"temperature_inlet": (213.0, 623.2), "coil_temperature": (213.0, 623.2)},
     equation=(
         r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\qquad P = \frac{q_e}{\mathrm{COP} - 1},\qquad "
-        r"\mathrm{SMER} = \frac{w_2 - w_1}{P}"
+        r"\mathrm{SMER} = \frac{w_2 - w_1}{P},\qquad h(T_2, w_2) = h(T_1, w_1),\ w_2 = w(T_2, "
+        r"\varphi_2),\ w_1 = \mathrm{BF}\,w_2 + (1 - \mathrm{BF})\,w_s(T_b)"
     ),
     typical={
         "temperature_inlet": (318.0, 333.0),
@@ -218,6 +238,12 @@ class HeatPump(NamedTuple):
         "coil_bypass_fraction": (0.05, 0.3),
     },
     title="Heat-pump dryer in a closed loop",
+    symbols={
+        "temperature_inlet": "T_1",
+        "temperature_outlet": "T_2",
+        "humidity_ratio_inlet": "w_1",
+        "humidity_ratio_outlet": "w_2",
+    },
 )
 def heat_pump_dryer(
     temperature_inlet: Temperature,
@@ -311,6 +337,7 @@ class SteamDrying(NamedTuple):
         "pressure": (9e4, 1.5e5),
     },
     title="Drying in superheated steam",
+    symbols={"temperature_inlet": "T_1", "temperature_outlet": "T_2", "temperature_product": "T_0"},
 )
 def superheated_steam_drying(
     temperature_inlet: Temperature,
@@ -366,13 +393,17 @@ class Recompression(NamedTuple):
 @formula(
     source="mujumdar2014; iapwsif97",
     fitted={"pressure_inlet": (611.213, 16.529e6), "pressure_outlet": (611.213, 16.529e6)},
-    equation=r"w = \frac{h(p_2, s_1) - h_1}{\eta},\qquad \mathrm{COP} = \frac{h_2 - h_l(p_2)}{w}",
+    equation=(
+        r"w = \frac{h(p_2, s_1) - h_1}{\eta},\qquad \mathrm{COP} = \frac{h_2 - h_l(p_2)}{w},\quad h_1 = "
+        r"h_v(p_1)"
+    ),
     typical={
         "pressure_inlet": (8e4, 1.2e5),
         "pressure_outlet": (1.8e5, 3e5),
         "compressor_efficiency": (0.65, 0.85),
     },
     title="Mechanical vapor recompression",
+    symbols={"energy_per_water": "w"},
 )
 def vapor_recompression(
     pressure_inlet: Pressure, pressure_outlet: Pressure, compressor_efficiency: OpenFraction = 0.75
@@ -435,8 +466,8 @@ class DirectFiring(NamedTuple):
     source="keey1978; wagner2002; iapws2011melting",
     fitted={"temperature_fresh": (213.0, 623.2), "temperature_outlet": (213.0, 623.2)},
     equation=(
-        r"h_1(n) = h(T_1, w_1(n)),\qquad h_2 = h_1,\qquad \mathrm{CEM} = "
-        r"\frac{\mathrm{PCI}}{m_g\,(w_2 - w_1)}"
+        r"h_1(n) = h(T_1, w_1(n)),\qquad h_2 = h_1,\qquad \mathrm{CEM} = \frac{\mathrm{PCI}}{m_g\,(w_2 "
+        r"- w_1)},\qquad h_2 = h(T_2, w_2)"
     ),
     typical={
         "temperature_inlet": (450.0, 700.0),
@@ -449,6 +480,12 @@ class DirectFiring(NamedTuple):
         "heat_loss_share": (0.01, 0.05),
     },
     title="Dryer fired directly",
+    symbols={
+        "temperature_inlet": "T_1",
+        "temperature_outlet": "T_2",
+        "humidity_ratio_inlet": "w_1",
+        "humidity_ratio_outlet": "w_2",
+    },
 )
 def direct_firing(
     temperature_inlet: Temperature,

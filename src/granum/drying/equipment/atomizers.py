@@ -15,6 +15,8 @@ from granum.drying.formulas.atomizers import (
     droplet_diameter_friedman,
     droplet_diameter_nukiyama_tanasawa,
 )
+from granum.streams.formulas.drives import shaft_power_incompressible
+from granum.streams.utilities import COMPRESSOR, PUMP
 
 NOZZLE_COEFFICIENT = 0.9  # of the speed of the jet
 
@@ -40,6 +42,10 @@ class AbstractAtomizer(eqx.Module):
     def launch(self, feed: Liquor) -> Any:
         """Speed of the drops along the chamber when they leave, m/s."""
 
+    def shaft_power(self, feed: Liquor) -> Any:
+        """Power that breaks up the feed, W; unknown, and left out, of drops that are given."""
+        return 0.0 * feed.mass_flow
+
     def __call__(self, density: PositiveNumber = 1100.0) -> Length:
         return self.sauter(Liquor(0.1, density, 0.01, 0.06, 1.0))
 
@@ -61,6 +67,11 @@ class PressureNozzle(AbstractAtomizer):
 
     def launch(self, feed: Liquor) -> Any:
         return NOZZLE_COEFFICIENT * jnp.sqrt(2.0 * self.pressure_difference / feed.density)
+
+    def shaft_power(self, feed: Liquor) -> Any:
+        """Of the pump."""
+        volume = feed.mass_flow / feed.density
+        return shaft_power_incompressible.function(volume, self.pressure_difference, PUMP)
 
 
 @law("atomizer", name="atomizer_wheel", source="friedman1952; masters1991", title="Atomizer wheel")
@@ -93,6 +104,10 @@ class Wheel(AbstractAtomizer):
         # what little of the tip speed points along the chamber
         return 0.01 * self.rotation_speed * 0.5 * self.diameter
 
+    def shaft_power(self, feed: Liquor) -> Any:
+        """What brings the feed to the speed of the rim and lets it go there."""
+        return feed.mass_flow * (0.5 * self.rotation_speed * self.diameter) ** 2
+
 
 @law(
     "atomizer",
@@ -121,6 +136,10 @@ class TwoFluidNozzle(AbstractAtomizer):
 
     def launch(self, feed: Liquor) -> Any:
         return 0.5 * self.relative_velocity * self.gas_per_feed / (1.0 + self.gas_per_feed)
+
+    def shaft_power(self, feed: Liquor) -> Any:
+        """Of the compressor that gives the gas its speed."""
+        return self.gas_per_feed * feed.mass_flow * 0.5 * self.relative_velocity**2 / COMPRESSOR
 
 
 @law("atomizer", name="atomizer_given", source="masters1991", title="Atomizer of known drop size")

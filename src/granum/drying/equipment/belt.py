@@ -23,10 +23,12 @@ from granum.drying.gas_solid.column import Zone
 from granum.drying.gas_solid.dryer import NOTES, Dried, DryerFigures, Through, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.layer import LayerDryer
+from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import AREA
 
 TABLE = NOTES.format(table="IV.10")
 
@@ -57,6 +59,8 @@ class BeltDryer(LayerDryer):
         "capacity": Limit("water evaporated per area and hour", 6.0, 50.0, "kg/(hour*m^2)", TABLE),
         "velocity": Limit("gas velocity through the layer", 0.25, 2.5, "m/s", "keey1978"),
     }
+
+    utilities: ClassVar[Utilities] = LayerDryer.utilities | AREA
 
     def extent(self) -> Any:
         return self.area
@@ -112,3 +116,19 @@ class BeltDryer(LayerDryer):
             "capacity": self.hourly(figures),
             "velocity": gas.gas_volume_flow / self.area,
         }
+
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        void = jnp.clip(1.0 - self.bulk_density_dry / feed.solid_density, 0.2, 0.9)
+        gradient = pressure_gradient_ergun.function(
+            gas.gas_volume_flow / self.area,
+            solid_diameter(feed),
+            void,
+            gas.gas_density,
+            gas.gas_viscosity,
+        )
+        return gradient * self.layer_depth
+
+    def drawn(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        return super().drawn(inside, outlets, figures, feed, gas) | {"area_installed": self.area}

@@ -11,12 +11,13 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Fraction, HumidityRatio, MassFlow, MassRatio, Power, Temperature
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.materials.fluids import Combustion
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import AIR, Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
 
 HOTTEST = 1400.0  # K, up to which the flue gas may be taken as air
 MOST = 1e3  # air over air needed
@@ -56,6 +57,8 @@ class Burner(Unit):
         "hot": Limit("temperature of the fired gas", 273.15, HOTTEST, "K", "keey1978"),
     }
 
+    utilities: ClassVar[Utilities] = {"heat_input_fuel_gas": Utility("keey1978", inlet="fuel")}
+
     def outlets(self, inside: None, gas: Stream, fuel: Stream) -> Fired:
         both = gas + fuel
         fuels, m = _fuels(gas.mixture), gas.mixture
@@ -94,6 +97,11 @@ class Burner(Unit):
         # without fuel no air is needed
         enough = jnp.where(figures.fuel_flow > 0, figures.excess_air_ratio, MOST)
         return {"enough": enough, "hot": figures.temperature}
+
+    def drawn(
+        self, inside: None, outlets: Fired, figures: BurnerFigures, gas: Stream, fuel: Stream
+    ) -> dict[str, Any]:
+        return {"heat_input_fuel_gas": figures.heat_duty_heater}
 
 
 def _fuels(mixture: Mixture) -> dict[int, Combustion]:

@@ -31,6 +31,7 @@ from granum.core.kinds import (
     TemperatureDifference,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.drying.balances.savings import vapor_recompression
 from granum.drying.wet_surface import boiled
 from granum.humid_gas.relations import saturated_fraction
@@ -38,7 +39,8 @@ from granum.materials.formulas.steam import steam_enthalpy
 from granum.numerics import find_root, safe_divide
 from granum.streams.equilibrium import COLDEST, HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import COOLED, FANNED, HEATED, cooled, driven, heated
 
 _UNSOLVED = (
     "No temperature of the outlet air was found between coil and hot air at which heat and evaporation "
@@ -412,6 +414,10 @@ class ClosedDryer(Unit):
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     }
 
+    utilities: ClassVar[Utilities] = (
+        HEATED | COOLED | FANNED | {"electric_power_compressor": Utility("mujumdar2014")}
+    )
+
     def inside(self, feed: Stream) -> Circuit:
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
         found = self.drying_circuit.run(
@@ -458,3 +464,19 @@ class ClosedDryer(Unit):
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product - self.temperature_limit
         return found
+
+    def drawn(
+        self, inside: Circuit, outlets: ClosedOutlets, figures: ClosedFigures, feed: Stream
+    ) -> dict[str, Any]:
+        spare = jnp.minimum(inside.heater, 0.0)
+        cold = getattr(self.drying_circuit, "coil_temperature", self.temperature_inlet)
+        taken = cooled(-jnp.asarray(inside.cooling), cold)
+        rejected = cooled(spare, self.temperature_inlet)
+        return (
+            heated(inside.heater, self.temperature_inlet)
+            | {name: taken[name] + rejected[name] for name in taken}
+            | {
+                "electric_power_fan": driven(self.fan_power),
+                "electric_power_compressor": driven(inside.power),
+            }
+        )

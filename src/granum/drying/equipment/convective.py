@@ -32,7 +32,8 @@ from granum.numerics import find_root, safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import FANNED, HEATED, HOT_GAS, driven, heated, warmth
 
 COLDEST, HOTTEST = 200.0, 1200.0  # K, bracket of the exhaust
 _UNSOLVED = (
@@ -134,6 +135,8 @@ class ConvectiveDryer(Unit):
         ),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     } | FLAMMABLE
+
+    utilities: ClassVar[Utilities] = HEATED | HOT_GAS | FANNED
 
     def __check_init__(self) -> None:
         if self.temperature_inlet is not None and self.heat_duty is not None:
@@ -328,3 +331,14 @@ class ConvectiveDryer(Unit):
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product - self.temperature_limit
         return found
+
+    def drawn(
+        self,
+        inside: Inside,
+        outlets: ConvectiveOutlets,
+        figures: ConvectiveFigures,
+        feed: Stream,
+        gas: Stream,
+    ) -> dict[str, Any]:
+        fan = {"electric_power_fan": driven(self.fan_power)}
+        return heated(inside.heater, figures.temperature_inlet) | warmth(gas) | fan

@@ -36,7 +36,8 @@ from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, heated
 
 
 class ContactDried(NamedTuple):
@@ -96,6 +97,8 @@ class DrumDryer(Unit):
         "ratio": Limit("steam per water evaporated", 1.1, 1.6, "dimensionless", "mujumdar2014, ch. 9"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     }
+
+    utilities: ClassVar[Utilities] = HEATED | AREA
 
     def inside(self, feed: Stream) -> dict[str, Any]:
         """What happens to the film on its way."""
@@ -219,3 +222,9 @@ class DrumDryer(Unit):
         if self.temperature_limit is not None:
             found["hot"] = outlets.product.temperature - self.temperature_limit
         return found
+
+    def drawn(
+        self, inside: dict[str, Any], outlets: ContactDried, figures: DrumFigures, feed: Stream
+    ) -> dict[str, Any]:
+        steam = outlets.heat_duty / (1.0 - self.heat_loss_share)
+        return heated(steam, figures.wall_temperature - HEAT_APPROACH) | {"area_installed": figures.area}

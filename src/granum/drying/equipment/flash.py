@@ -23,6 +23,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
 TABLE = NOTES.format(table="IV.14")
+FRICTION = 0.02  # Darcy factor of the gas in the duct
 FIRST_CELLS = 1.08  # growth of the cells from the feed point on, where the particles are still slow
 
 
@@ -96,6 +97,14 @@ class FlashDryer(Dryer):
             "outlet": outlets.exhaust.temperature,
             "time": figures.residence_time,
         }
+
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        """Solid brought to the speed of the gas and lifted, and friction of the gas in the duct."""
+        U = gas.gas_volume_flow / self.extent()
+        carried = (feed.solid_flow + feed.liquid_flow) / self.extent()
+        lifted = STANDARD_GRAVITY * self.length / jnp.maximum(U, 1e-3) * (1.0 - 2.0 * self.downward)
+        friction = FRICTION * self.length / self.diameter * 0.5 * gas.gas_density * U**2
+        return jnp.maximum(carried * (U + lifted) + friction, 0.0)
 
 
 @ready

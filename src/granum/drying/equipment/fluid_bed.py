@@ -10,6 +10,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
@@ -20,6 +21,7 @@ from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
 from granum.drying.gas_solid.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
+from granum.fluidization.equipment.bed import FluidizedBed
 from granum.fluidization.formulas.bubbles import (
     bubble_diameter_darton,
     bubble_exchange_rate_cloud,
@@ -30,9 +32,11 @@ from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_w
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import AREA
 
 TABLE = NOTES.format(table="IV.16")
+DISTRIBUTOR = 0.3  # of the pressure drop of the bed
 AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
 
 
@@ -48,7 +52,8 @@ class FluidBedDryer(CellDryer):
     With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed
     times, so that some leave as they came. With more cells solid flows along the bed through that many tanks
     in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its way up,
-    unless it is given.
+    unless it is given. With ``entrainment`` the exhaust takes fines along by their elutriation constant, as
+    ``fluidization.fluidized_bed`` does; else all solid overflows.
     """
 
     area: Area
@@ -59,6 +64,7 @@ class FluidBedDryer(CellDryer):
     void_fraction: VoidFraction = 0.45
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
+    entrainment: bool = False
 
     limits: ClassVar[Limits] = CellDryer.limits | {
         "fluidized": Limit(
@@ -70,12 +76,20 @@ class FluidBedDryer(CellDryer):
         "capacity": Limit("water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE),
     }
 
+    utilities: ClassVar[Utilities] = CellDryer.utilities | AREA
+
     def extent(self) -> Any:
         return self.area
 
     def height(self, feed: Stream) -> Any:
         """Of the settled bed."""
         return self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
+
+    def entrained(self, product: Stream, exhaust: Stream) -> Any:
+        if not self.entrainment:
+            return None
+        bed = product.replace(gas=exhaust.gas, temperature=exhaust.temperature, pressure=exhaust.pressure)
+        return FluidizedBed(self.area, self.mass, self.void_fraction).inside(bed).carried
 
     def minimum_velocity(self, feed: Stream, gas: Stream) -> Any:
         """Of fluidization, with the gas of the inlet."""
@@ -181,6 +195,15 @@ class FluidBedDryer(CellDryer):
             "time": figures.residence_time,
             "capacity": self.hourly(figures),
         }
+
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        """Weight of the bed, and a third of it in the distributor."""
+        return (1.0 + DISTRIBUTOR) * self.mass * STANDARD_GRAVITY / self.area
+
+    def drawn(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        return super().drawn(inside, outlets, figures, feed, gas) | {"area_installed": self.area}
 
 
 @ready

@@ -43,7 +43,8 @@ from granum.drying.kinds import (
 )
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, COLD_APPROACH, COOLED, HEATED, cooled, heated
 
 
 class FreezeDried(NamedTuple):
@@ -118,6 +119,8 @@ class FreezeDryer(Unit):
             "sublimation over the capacity of the machine", 0.0, 1.0, "dimensionless", "shivkumar2019"
         ),
     }
+
+    utilities: ClassVar[Utilities] = HEATED | COOLED | AREA
 
     def outlets(self, inside: None, feed: Stream) -> FreezeDried:
         first = next((liquid.name for liquid in feed.mixture.liquids), "–")
@@ -206,3 +209,15 @@ class FreezeDryer(Unit):
         if self.sublimation_capacity is not None:
             found["capacity"] = figures.sublimation_rate_highest / self.sublimation_capacity
         return found
+
+    def drawn(
+        self, inside: None, outlets: FreezeDried, figures: FreezeFigures, feed: Stream
+    ) -> dict[str, Any]:
+        frozen = self.temperature_shelf_start - COLD_APPROACH
+        shelves = figures.vial_count * self.area_vial
+        rest = jnp.maximum(outlets.heat_duty, 0.0)  # that leaves with the product
+        return (
+            heated(figures.heat_duty_shelf + rest, self.temperature_shelf_secondary)
+            | cooled(figures.heat_duty_condenser + jnp.minimum(outlets.heat_duty, 0.0), frozen)
+            | {"area_installed": shelves}
+        )

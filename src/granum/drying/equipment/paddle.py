@@ -13,6 +13,7 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -36,6 +37,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.units import format_number
+from granum.core.utilities import Utility
 from granum.drying.equipment.drum import ContactDried
 from granum.drying.formulas.contact_drying import (
     contact_time_mixing,
@@ -49,9 +51,12 @@ from granum.drying.wet_surface import boiled
 from granum.numerics import Root, find_root, safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Operated, Unit
+from granum.streams.units import Limits, Operated, Unit, Utilities
+from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, driven, heated
 
 STEPS, PASTY_STEPS = 40, 10
+FRICTION = 0.6  # inside the bed, of a repose of 31°
+TURNED = "vdi2010, ch. Mc, the bed only: that all of it rubs at the speed of the paddles is our own estimate"
 DRIEST = 1e-6  # kg/kg, to which an area may dry
 
 
@@ -152,6 +157,8 @@ class PaddleDryer(Unit):
         "dry": Limit("moisture of the product above equilibrium", 0.0, 1e3, "kg/kg", "keey1978"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     }
+
+    utilities: ClassVar[Utilities] = HEATED | AREA | {"electric_power_drive": Utility(TURNED)}
 
     @classmethod
     def rate(cls, area: Any, feed: Stream, **parameters: Any) -> PaddleDryer:
@@ -335,6 +342,16 @@ class PaddleDryer(Unit):
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product - self.temperature_limit
         return found
+
+    def drawn(
+        self, inside: Heated, outlets: ContactDried, figures: PaddleFigures, feed: Stream
+    ) -> dict[str, Any]:
+        wet = figures.solid_holdup * (1.0 + 0.5 * (feed.moisture_dry_basis + self.moisture_outlet))
+        turning = FRICTION * wet * STANDARD_GRAVITY * self.rotation_speed * 0.5 * self.diameter
+        return heated(outlets.heat_duty, self.wall_temperature - HEAT_APPROACH) | {
+            "electric_power_drive": driven(turning),
+            "area_installed": inside.area,
+        }
 
 
 def _moisture(dryer: PaddleDryer) -> Any:

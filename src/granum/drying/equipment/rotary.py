@@ -20,16 +20,23 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.drying.formulas.rotary import residence_time_friedman_marshall, volumetric_heat_transfer_rotary
+from granum.core.utilities import Utility
+from granum.drying.formulas.rotary import (
+    residence_time_friedman_marshall,
+    shaft_power_rotary_drum,
+    volumetric_heat_transfer_rotary,
+)
 from granum.drying.gas_solid.cells import Contact, Network
 from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.matter import Matter
 from granum.streams.cakes import solid_diameter
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import HEAT_APPROACH, HEATED, driven, heated
 
 TABLE = NOTES.format(table="IV.6")
+SHELL, STEEL = 0.01, 7850.0  # thickness of the shell with flights over the diameter, kg/m³
 
 
 @equipment(
@@ -65,6 +72,16 @@ class RotaryDryer(CellDryer):
         "inlet": Limit("gas temperature at the inlet", 373.15, 1173.15, "K", TABLE),
         "capacity": Limit("water evaporated per volume and hour", 3.0, 100.0, "kg/(hour*m^3)", TABLE),
     }
+
+    utilities: ClassVar[Utilities] = (
+        CellDryer.utilities
+        | HEATED
+        | {
+            "electric_power_drive": Utility(
+                "perry2008, ch. 12, the drive only: the weight of a steel shell is our own estimate"
+            )
+        }
+    )
 
     def extent(self) -> Any:
         return self.length * self.section
@@ -147,3 +164,16 @@ class RotaryDryer(CellDryer):
             "inlet": gas.temperature,
             "capacity": self.hourly(figures),
         }
+
+    def drawn(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        load = inside.holdup * (1.0 + feed.moisture_dry_basis)
+        shell = pi * self.diameter * self.length * SHELL * self.diameter * STEEL
+        turning = shaft_power_rotary_drum(self.rotation_speed, self.diameter, load, shell + load)
+        wall = jnp.maximum(outlets.heat_duty + self.heat_loss, 0.0)
+        return (
+            super().drawn(inside, outlets, figures, feed, gas)
+            | heated(wall, self.wall_temperature - HEAT_APPROACH)
+            | {"electric_power_drive": driven(turning)}
+        )

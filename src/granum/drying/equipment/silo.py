@@ -171,6 +171,9 @@ class SiloDryer(LayerDryer):
             "pressure": self.pressure_gradient(gas) * self.layer_depth,
         }
 
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        return self.pressure_gradient(gas) * self.layer_depth
+
 
 @ready
 def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) -> Through:

@@ -24,6 +24,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.drying.equipment.atomizers import Liquor
 from granum.drying.gas_solid.cells import Inlet, Network
 from granum.drying.gas_solid.conveyed import Path, convey, drop_ratio, liquid_density
@@ -31,9 +32,11 @@ from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Thr
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
+from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import driven
 
 TABLE = NOTES.format(table="IV.2")
 GROWTH = 1.08  # of the cells from the atomizer on
@@ -46,7 +49,8 @@ class SprayDryer(Dryer):
 
     The size classes of the mixture are those of the dry particles; the solid of the feed, dissolved or
     suspended, is shared out over them. ``gas_dispersion`` mixes the gas along the chamber: exchange flow
-    between cells over through-flow, up to some tens; plug flow without it.
+    between cells over through-flow, up to some tens; plug flow without it. With ``entrainment`` the exhaust
+    takes fines along, by their terminal velocity against the gas in the section; else all powder falls out.
     """
 
     length: Length
@@ -61,6 +65,7 @@ class SprayDryer(Dryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 50
+    entrainment: bool = False
 
     limits: ClassVar[Limits] = Dryer.limits | {
         "inlet": Limit("gas temperature at the inlet", 373.15, 873.15, "K", TABLE),
@@ -69,6 +74,8 @@ class SprayDryer(Dryer):
         "capacity": Limit("water evaporated per volume and hour", 1.0, 30.0, "kg/(hour*m^3)", TABLE),
         "slender": Limit("height over diameter of the chamber", 0.6, 5.0, "dimensionless", "masters1991"),
     }
+
+    utilities: ClassVar[Utilities] = Dryer.utilities | {"electric_power_atomizer": Utility("masters1991")}
 
     def extent(self) -> Any:
         return 0.25 * pi * self.diameter**2 * self.length
@@ -117,7 +124,21 @@ class SprayDryer(Dryer):
         return _sprayed(self, feed, gas)
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
-        return parted(self.atomized(counted(feed), gas), composition(feed), gas, inside.profile)
+        return self.dusted(parted(self.atomized(counted(feed), gas), composition(feed), gas, inside.profile))
+
+    def entrained(self, product: Stream, exhaust: Stream) -> Any:
+        """What the gas in the section of the chamber holds against its fall, kept evenly mixed by
+        turbulence.
+        """
+        if not self.entrainment:
+            return None
+        sizes = jnp.asarray(product.mixture.sizes)
+        fall = jnp.maximum(
+            terminal_velocity(sizes, self.dry_density, exhaust.gas_density, exhaust.gas_viscosity), 0.0
+        )
+        section = 0.25 * pi * self.diameter**2
+        share = jnp.exp(-fall * section / jnp.maximum(exhaust.gas_volume_flow, 1e-12))
+        return jnp.broadcast_to(share, (len(product.mixture.solids), sizes.shape[0]))
 
     @classmethod
     def size(
@@ -144,6 +165,13 @@ class SprayDryer(Dryer):
             "time": self.extent() / outlets.exhaust.gas_volume_flow,
             "capacity": self.hourly(figures),
             "slender": jnp.asarray(self.length / self.diameter),
+        }
+
+    def drawn(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        return super().drawn(inside, outlets, figures, feed, gas) | {
+            "electric_power_atomizer": driven(self.atomizer.shaft_power(self.liquor(feed, gas)))
         }
 
 

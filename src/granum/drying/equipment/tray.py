@@ -34,6 +34,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.drying.formulas.assisted import wet_surface
 from granum.drying.formulas.contact_drying import temperature_outlet_tray
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
@@ -48,8 +49,11 @@ from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, HEATED, HOT_GAS, fanned, heated, warmth
 
+TRAY_HEADS = 10.0
+HEADS = "treybal1980, ch. 12, the speed only: ten velocity heads over the trays are our own estimate"
 _UNSOLVED = (
     "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation "
     "agree: give hotter air, or less radiated heat."
@@ -146,6 +150,8 @@ class TrayDryer(Unit):
         "recycle": Limit("recirculated share of the air", 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     } | FLAMMABLE
+
+    utilities: ClassVar[Utilities] = HEATED | HOT_GAS | AREA | {"electric_power_fan": Utility(HEADS)}
 
     def outlets(self, inside: dict[str, Any], feed: Stream, gas: Stream) -> TrayDried:
         product, vapor = boiled(
@@ -260,6 +266,23 @@ class TrayDryer(Unit):
         if self.temperature_limit is not None:
             found["hot"] = self.temperature_inlet - self.temperature_limit
         return found
+
+    def drawn(
+        self, inside: dict[str, Any], outlets: TrayDried, figures: TrayFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        s, share = inside, inside["time"] / figures.cycle_time
+        over = s["flux"] / self.gas_velocity  # density, kg/m³
+        section = self.tray_gap / self.tray_length * figures.area
+        lost = TRAY_HEADS * 0.5 * over * self.gas_velocity**2
+        duty = outlets.heat_duty / (1.0 - self.heat_loss_share)
+        return (
+            heated(duty, self.temperature_inlet)
+            | warmth(gas)
+            | {
+                "electric_power_fan": fanned(self.gas_velocity * section * share, lost),
+                "area_installed": figures.area,
+            }
+        )
 
 
 @ready

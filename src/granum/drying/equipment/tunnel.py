@@ -28,6 +28,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
 TABLE = NOTES.format(table="IV.8")
+TRUCK_HEADS = 10.0  # velocity heads lost between the trucks, our own estimate
 
 
 @equipment("tunnel_dryer", source="keey1978; geankoplis2003, ch. 9", title="Tunnel dryer")
@@ -104,3 +105,7 @@ class TunnelDryer(CellDryer):
             "capacity": self.hourly(figures),
             "velocity": gas.gas_volume_flow / self.free_area,
         }
+
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        """Velocity heads of the gas between the trucks."""
+        return TRUCK_HEADS * 0.5 * gas.gas_density * (gas.gas_volume_flow / self.free_area) ** 2

@@ -9,6 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
 from granum.core.flags import unsolved
 from granum.core.kinds import (
     Area,
@@ -32,7 +33,8 @@ from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, FANNED, HOT_GAS, ducted, warmth
 
 COLDEST_FILM = 200.0  # K
 UNSOLVED = (
@@ -74,6 +76,8 @@ class WellMixedDryer(Unit):
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
         "moist": Limit("moisture of the product", 0.0, 0.01, "kg/kg", "mullin2001, ch. 9"),
     } | FLAMMABLE
+
+    utilities: ClassVar[Utilities] = HOT_GAS | FANNED | AREA
 
     def inside(self, feed: Stream, gas: Stream) -> Stream:
         """Gas and solid together, as they are in the bed."""
@@ -175,6 +179,12 @@ class WellMixedDryer(Unit):
         return {"humid": figures.relative_humidity, "moist": figures.moisture_dry_basis} | flammable(
             outlets.exhaust
         )
+
+    def drawn(
+        self, inside: Stream, outlets: Dried, figures: WellMixedFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        bed = 1.3 * figures.solid_holdup * STANDARD_GRAVITY / figures.area
+        return warmth(gas) | {"electric_power_fan": ducted(gas, bed), "area_installed": figures.area}
 
 
 def evaporate(wet: Stream, share: Any) -> Stream:

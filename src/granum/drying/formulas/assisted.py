@@ -115,7 +115,7 @@ def wet_surface(
 
 @formula(
     source="metaxas1983",
-    equation=r"q = \frac{\eta\,P_{el}}{A}\left(1 - e^{-L/D_p}\right)",
+    equation=r"q_r = \frac{\eta\,P}{A}\left(1 - e^{-L/D_p}\right)",
     typical={
         "shaft_power": (500.0, 5000.0),
         "area": (0.2, 2.0),

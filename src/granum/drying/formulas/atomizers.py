@@ -33,10 +33,14 @@ FEED = {"density": (1000.0, 1300.0), "surface_tension": (0.04, 0.073), "dynamic_
 
 @formula(
     source="elkotb1982",
-    equation=r"d_{32} = 3.08\,\nu^{0.385}(\sigma\rho_l)^{0.737}\rho_g^{0.06}\,\Delta p^{-0.54}",
+    equation=(
+        r"d_{32} = 3.08\,\nu^{0.385}(\sigma\rho)^{0.737}\rho_g^{0.06}\,\Delta p^{-0.54},\quad \nu = "
+        r"\eta/\rho"
+    ),
     typical=FEED | {"pressure_difference": (2e6, 3e7), "gas_density": (0.7, 1.2)},
     output="droplet_diameter",
     title="Drops of a pressure nozzle (Elkotb)",
+    symbols={"droplet_diameter": "d_{32}", "pressure_difference": r"\Delta p"},
 )
 def droplet_diameter_elkotb(
     pressure_difference: PressureDifference,
@@ -68,6 +72,7 @@ def droplet_diameter_elkotb(
     typical=FEED | {"pressure_difference": (2e6, 3e7), "gas_density": (0.7, 1.2), "mass_flow": (0.01, 1.0)},
     output="droplet_diameter",
     title="Drops of a pressure-swirl nozzle (Lefebvre)",
+    symbols={"droplet_diameter": "d_{32}", "pressure_difference": r"\Delta p"},
 )
 def droplet_diameter_lefebvre(
     pressure_difference: PressureDifference,
@@ -90,8 +95,8 @@ def droplet_diameter_lefebvre(
 @formula(
     source="masters1991",
     equation=(
-        r"d_{32} = 1.4\times 10^{4}\,\frac{\dot m^{0.24}}{(N d)^{0.83}(n b)^{0.12}}\ \mathrm{\mu m},\quad "
-        r"\dot m\ \mathrm{in\ kg/h},\ N\ \mathrm{in\ rpm}"
+        r"d_{32} = 1.4\times 10^{4}\,\frac{\dot m^{0.24}}{(N D)^{0.83}(n b)^{0.12}}\ \mathrm{\mu "
+        r"m},\quad \dot m\text{ in }\mathrm{kg/h},\ N = \frac{\omega}{2\pi}\text{ in }\mathrm{rpm}"
     ),
     typical={
         "mass_flow": (0.05, 3.0),
@@ -101,6 +106,7 @@ def droplet_diameter_lefebvre(
     },
     output="droplet_diameter",
     title="Drops of an atomizer wheel (Masters)",
+    symbols={"droplet_diameter": "d_{32}"},
 )
 def droplet_diameter_masters(
     mass_flow: MassFlow,
@@ -130,7 +136,8 @@ def droplet_diameter_masters(
     equation=(
         r"\frac{d_{32}}{r} = 0.4\left(\frac{\Gamma}{\rho N "
         r"r^2}\right)^{0.6}\left(\frac{\eta}{\Gamma}\right)^{0.2}\left(\frac{\sigma\rho\,n "
-        r"b}{\Gamma^2}\right)^{0.1}"
+        r"b}{\Gamma^2}\right)^{0.1},\quad \Gamma = \frac{\dot m}{n b},\ N = \frac{\omega}{2\pi},\ r = "
+        r"\frac D2"
     ),
     typical=FEED
     | {
@@ -141,6 +148,7 @@ def droplet_diameter_masters(
     },
     output="droplet_diameter",
     title="Drops of an atomizer wheel (Friedman, Gluckert and Marshall)",
+    symbols={"droplet_diameter": "d_{32}"},
 )
 def droplet_diameter_friedman(
     mass_flow: MassFlow,
@@ -188,6 +196,7 @@ def droplet_diameter_friedman(
     },
     output="droplet_diameter",
     title="Drops of a two-fluid nozzle (Nukiyama–Tanasawa)",
+    symbols={"droplet_diameter": "d_{32}"},
 )
 def droplet_diameter_nukiyama_tanasawa(
     relative_velocity: Speed,
@@ -214,7 +223,7 @@ def droplet_diameter_nukiyama_tanasawa(
 
 @formula(
     source="godsave1953; masters1991",
-    equation=r"t = \frac{\rho\,L_v\,(d_0^2 - d_1^2)}{8\,\lambda\,(T_g - T_w)}",
+    equation=r"t = \frac{\rho\,L_v\,(d_0^2 - d_1^2)}{8\,\lambda\,\Delta T}",
     typical={
         "droplet_diameter": (3e-5, 3e-4),
         "droplet_diameter_end": (1e-6, 2e-5),
@@ -224,6 +233,7 @@ def droplet_diameter_nukiyama_tanasawa(
     },
     title="Evaporation time of a drop, d² law",
     output="drying_time",
+    symbols={"droplet_diameter": "d_0", "droplet_diameter_end": "d_1"},
 )
 def drying_time_droplet(
     droplet_diameter: Length,

@@ -24,8 +24,8 @@ BORDER = 350.0
 @formula(
     source="geankoplis2003, ch. 9; wilke1945; gamson1943",
     equation=(
-        r"h = 0.151\,\frac{G^{0.59}}{d^{0.41}}\ (\mathrm{Re}>350),\quad h = "
-        r"0.214\,\frac{G^{0.49}}{d^{0.51}}\ (\mathrm{Re}<350),\quad G\ \mathrm{in\ kg/(m^2 h)}"
+        r"h = 0.151\,\frac{G^{0.59}}{d_p^{0.41}}\ (\mathrm{Re}>350),\quad h = "
+        r"0.214\,\frac{G^{0.49}}{d_p^{0.51}}\ (\mathrm{Re}<350),\quad G\text{ in }\mathrm{kg/(m^2 h)}"
     ),
     typical={"gas_mass_flux": (0.3, 2.0), "particle_diameter": (4e-3, 2e-2)},
     output="heat_transfer_coefficient",
@@ -52,10 +52,11 @@ def heat_transfer_coefficient_through_bed(
 
 @formula(
     source="geankoplis2003, ch. 9",
-    equation=r"a = \frac{4(1-\varepsilon)(l + d/2)}{d\,l}",
+    equation=r"a_g = \frac{4(1-\varepsilon)(l + d/2)}{d\,l}",
     typical={"diameter": (3e-3, 2e-2), "length": (3e-3, 5e-2), "void_fraction": (0.35, 0.65)},
     output="specific_surface",
     title="Surface of a bed of cylinders",
+    symbols={"diameter": "d", "length": "l"},
 )
 def specific_surface_cylinders(
     diameter: Length, length: Length, void_fraction: VoidFraction
@@ -97,7 +98,7 @@ def pressure_gradient_shedd(
 
 @formula(
     source="hukill1954",
-    equation=r"MR = \frac{2^{D}}{2^{D} + 2^{t} - 1}",
+    equation=r"MR = \frac{2^{D}}{2^{D} + 2^{Y} - 1}",
     typical={"depth_units": (0.1, 8.0), "time_units": (0.1, 8.0)},
     output="moisture_ratio",
     title="Deep bed of grain (Hukill)",

@@ -38,8 +38,14 @@ COVERED = 0.8  # share of the wall covered by particles
 
 @formula(
     source=_PENETRATION,
-    equation=r"h_{ws} = \varphi h_{wp} + (1-\varphi)\frac{2\lambda_g/d}{\sqrt2 + 2(l+\delta)/d} + 4\varepsilon\sigma T^3,\quad "  # noqa: E501
-    r"h_{wp} = \frac{4\lambda_g}{d}\left[\left(1+\frac{2(l+\delta)}{d}\right)\ln\left(1+\frac{d}{2(l+\delta)}\right) - 1\right]",  # noqa: E501
+    equation=(
+        r"h_{ws} = \varphi h_{wp} + (1-\varphi)\frac{2\lambda_g/d}{\sqrt2 + 2(l+\delta)/d} + "
+        r"4\varepsilon\sigma T^3,\quad h_{wp} = "
+        r"\frac{4\lambda_g}{d}\left[\left(1+\frac{2(l+\delta)}{d}\right)"
+        r"\ln\left(1+\frac{d}{2(l+\delta)}\right) "
+        r"- 1\right],\quad l = \frac{2\,(2-\gamma)}{\gamma}\,\frac{\sqrt{2\pi R T/M}\,\lambda_g}{p\,(2 "
+        r"c_p - R/M)}"
+    ),
     typical={
         "particle_diameter": (2e-4, 3e-3),
         "pressure": (1e3, 1e5),
@@ -49,6 +55,7 @@ COVERED = 0.8  # share of the wall covered by particles
     },
     output="heat_transfer_coefficient",
     title="Heat transfer from a wall to a bed of particles",
+    symbols={"particle_diameter": "d", "heat_transfer_coefficient": "h_{ws}"},
 )
 def heat_transfer_coefficient_wall_particles(
     particle_diameter: Length,
@@ -92,7 +99,7 @@ def heat_transfer_coefficient_wall_particles(
 
 @formula(
     source=_PENETRATION,
-    equation=r"t_R = \frac{C\,\mathrm{Fr}^x}{n},\quad \mathrm{Fr} = \frac{(2\pi n)^2 D}{2 g}",
+    equation=r"t_R = \frac{2\pi\,C\,\mathrm{Fr}^x}{\omega},\quad \mathrm{Fr} = \frac{\omega^2 D}{2 g}",
     typical={"rotation_speed": (0.5, 6.0), "diameter": (0.3, 2.0)},
     title="Contact time between mixings",
 )
@@ -137,6 +144,7 @@ class Penetration(NamedTuple):
     },
     title="Contact drying of an agitated bed (penetration model)",
     output="drying_flux",
+    symbols={"heat_transfer_coefficient_wall": "h_{ws}", "heat_transfer_coefficient_bed": "h_b"},
 )
 def penetration_drying(
     moisture_dry_basis: MoistureDryBasis,
@@ -186,7 +194,7 @@ def penetration_drying(
 
 @formula(
     source="treybal1980, ch. 12",
-    equation=r"T_2 = T_h + (T_1 - T_h)\,e^{-\frac{h\,L}{G\,c\,s}}",
+    equation=r"T_2 = T_s + (T_1 - T_s)\,e^{-\frac{h\,L}{G\,c\,s}}",
     typical={
         "temperature": (340.0, 390.0),
         "surface_temperature": (305.0, 315.0),
@@ -197,6 +205,7 @@ def penetration_drying(
     },
     title="Gas along a wet tray",
     output="temperature_outlet",
+    symbols={"temperature": "T_1", "temperature_outlet": "T_2"},
 )
 def temperature_outlet_tray(
     temperature: Temperature,
@@ -222,7 +231,10 @@ def temperature_outlet_tray(
 
 @formula(
     source="treybal1980, ch. 12",
-    equation=r"X(t) = X_0 - \frac{N t}{m/A}\ (X \ge X_c),\qquad X = X_e + (X_c - X_e)\,e^{-\frac{N\,(t-t_c)}{(m/A)\,(X_c - X_e)}}",  # noqa: E501
+    equation=(
+        r"X = X_0 - \frac{N_c\,t_R}{m/A}\ (X \ge X_c),\qquad X = X_e + (X_c - "
+        r"X_e)\,e^{-\frac{N_c\,(t_R-t_c)}{(m/A)\,(X_c - X_e)}}"
+    ),
     typical={
         "moisture_dry_basis_inlet": (1.0, 4.0),
         "contact_time": (2.0, 20.0),
@@ -232,6 +244,7 @@ def temperature_outlet_tray(
     },
     title="Moisture after a time at a constant and a falling rate",
     output="moisture_dry_basis",
+    symbols={"moisture_dry_basis_inlet": "X_0"},
 )
 def moisture_dry_basis_after(
     moisture_dry_basis_inlet: MoistureDryBasis,

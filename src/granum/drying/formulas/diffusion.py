@@ -82,6 +82,7 @@ def moisture_ratio_plate(time: Time, half_thickness: Length, diffusivity: Diffus
     equation=r"MR = 4\sum_{n\ge1}\frac{e^{-\alpha_n^2 D t/R^2}}{\alpha_n^2},\quad J_0(\alpha_n)=0",
     typical={"time": (1e3, 2e4), "radius": (2e-3, 5e-3), "diffusivity": (1e-10, 1e-9)},
     title="Diffusion in a cylinder",
+    symbols={"radius": "R"},
 )
 def moisture_ratio_cylinder(time: Time, radius: Length, diffusivity: Diffusivity) -> Ratio:
     """Mean moisture ratio of a long cylinder with its surface at equilibrium.
@@ -99,6 +100,7 @@ def moisture_ratio_cylinder(time: Time, radius: Length, diffusivity: Diffusivity
     equation=r"MR = \frac{6}{\pi^2}\sum_{n\ge1}\frac{e^{-n^2\pi^2 D t/R^2}}{n^2}",
     typical={"time": (1e3, 2e4), "radius": (2e-3, 5e-3), "diffusivity": (1e-10, 1e-9)},
     title="Diffusion in a sphere",
+    symbols={"radius": "R"},
 )
 def moisture_ratio_sphere(time: Time, radius: Length, diffusivity: Diffusivity) -> Ratio:
     """Mean moisture ratio of a sphere with its surface at equilibrium.
@@ -113,10 +115,11 @@ def moisture_ratio_sphere(time: Time, radius: Length, diffusivity: Diffusivity) 
 
 @formula(
     source="crank1975, ch. 2",
-    equation=r"MR = \prod_i MR_i",
+    equation=r"MR = MR_1\,MR_2\,MR_3",
     typical={"moisture_ratio_first": (0.2, 0.9), "moisture_ratio_second": (0.2, 0.9)},
     title="Diffusion in a finite body",
     output="moisture_ratio",
+    symbols={"moisture_ratio_first": "MR_1", "moisture_ratio_second": "MR_2"},
 )
 def moisture_ratio_product(
     moisture_ratio_first: Ratio, moisture_ratio_second: Ratio, moisture_ratio_third: Ratio = 1.0
@@ -140,6 +143,7 @@ def moisture_ratio_product(
     },
     title="Moisture diffusivity over temperature (Arrhenius)",
     output="diffusivity",
+    symbols={"diffusion_activation_energy": "E_a"},
 )
 def diffusivity_arrhenius(
     temperature: Temperature,

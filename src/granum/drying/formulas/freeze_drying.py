@@ -77,10 +77,15 @@ _TYPICAL = {
 @formula(
     source=MODEL + "; iapws2011melting",
     fitted={"temperature_product": (150.0, 273.16), "temperature_front": (150.0, 273.16)},
-    equation=r"A_v K_v (T_{sh}-T_b) = \Delta H_s A_p\frac{p_i(T_s)-P}{R_p(L)},\quad T_b = T_s + \frac{\Delta H_s\,\dot m (L_0-L)}{A_p k_i},\quad "  # noqa: E501
-    r"\frac{dL}{dt} = \frac{\dot m\,L_0}{m_i}",
+    equation=(
+        r"A_v K_v (T_{sh}-T_b) = \Delta H_s A_p\frac{p_i(T_s)-P_c}{R_p(L)},\quad T_b = T_s + "
+        r"\frac{\Delta H_s\,\dot m (L_0-L)}{A_p k_i},\quad \frac{dL}{dt} = \frac{\dot "
+        r"m\,L_0}{m_i},\quad K_v = K_C + \frac{K_P P_c}{1 + K_D P_c},\ R_p = R_0 + \frac{A_1 L}{1 + A_2 "
+        r"L},\quad L_0 = L_0(V_f, c, A_p)"
+    ),
     typical=_TYPICAL,
     title="Primary drying of a vial",
+    symbols={"temperature_product": "T_b"},
 )
 def primary_drying(
     pressure_chamber: Pressure,
@@ -173,7 +178,12 @@ class VialLimit(NamedTuple):
 @formula(
     source="nail2008; shivkumar2019; iapws2011melting",
     fitted={"temperature_limit": (150.0, 273.16)},
-    equation=r"\frac{\Delta H_s\,g\,(L_0-L)}{k_i} = T_{lim} - T_s,\quad g = \frac{p_i(T_s)-P}{R_p},\quad g_{eq} = \frac{a + b P}{N A_p}",  # noqa: E501
+    equation=(
+        r"\frac{\Delta H_s\,g\,(L_0-L)}{k_i} = T_{max} - T_s,\quad g = \frac{p_i(T_s)-P_c}{R_p},\quad "
+        r"T_{sh} = T_{max} + \frac{\Delta H_s\,g\,A_p}{K_v A_v},\quad g_{eq} = \frac{\dot m_{max}}{N "
+        r"A_p},\quad K_v = K_C + \frac{K_P P_c}{1 + K_D P_c},\ R_p = R_0 + \frac{A_1 L}{1 + A_2 "
+        r"L},\quad L_0 = L_0(V_f, c, A_p)"
+    ),
     typical={
         **_TYPICAL,
         "temperature_limit": (245.0, 265.0),
@@ -282,7 +292,10 @@ class SlabFreezeDrying(NamedTuple):
 @formula(
     source="king1971; iapws2011melting",
     fitted={"temperature_front": (150.0, 273.16)},
-    equation=r"\lambda\,(T_0 - T_f) = \Delta H_s\,b\,[p_i(T_f) - p_0],\qquad t = \frac{\Delta H_s\,\rho_d (X_0 - X) L^2}{2\lambda\,(T_0-T_f)}",  # noqa: E501
+    equation=(
+        r"\lambda\,(T_s - T_f) = \Delta H_s\,b\,[p_i(T_f) - P_c],\qquad t = \frac{\Delta H_s\,\rho_d "
+        r"(X_0 - X) L^2}{2\lambda\,(T_s-T_f)}"
+    ),
     typical={
         "surface_temperature": (300.0, 340.0),
         "pressure_chamber": (5.0, 60.0),
@@ -295,6 +308,7 @@ class SlabFreezeDrying(NamedTuple):
     },
     output="freeze_drying_slab",
     title="Freeze drying of a layer of food",
+    symbols={"temperature_front": "T_f", "moisture_dry_basis_inlet": "X_0", "vapor_pressure": "p_i"},
 )
 def freeze_drying_slab(
     surface_temperature: Temperature,
@@ -339,7 +353,10 @@ def freeze_drying_slab(
 @formula(
     source="patel2010; searles2004",
     fitted={"discharge_coefficient": (0.0, 1.0)},
-    equation=r"\dot m = C_d\,\frac{\pi D^2}{4}\,P\sqrt{\frac{\gamma M}{R T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}",  # noqa: E501
+    equation=(
+        r"\dot m^* = C_d\,\frac{\pi D^2}{4}\,P_c\sqrt{\frac{\gamma M}{R "
+        r"T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}"
+    ),
     typical={
         "duct_diameter": (0.1, 0.6),
         "pressure_chamber": (3.0, 30.0),
@@ -376,7 +393,10 @@ def choked_flow_rate(
 
 @formula(
     source="pikal1990; fissore2011",
-    equation=r"\ln\frac{X_0 - X_e}{X - X_e} = \int_0^t k_0\,e^{-E/RT(t)}\,dt",
+    equation=(
+        r"\int_0^{t_2} k_d\,e^{-\frac{E}{R}\left(\frac{1}{T_{sh}} - \frac{1}{T_r}\right)}\,dt = "
+        r"\ln\frac{X_0 - X_e}{X - X_e}"
+    ),
     typical={
         "moisture_dry_basis_inlet": (0.15, 0.25),
         "moisture_dry_basis_outlet": (0.01, 0.03),
@@ -388,6 +408,12 @@ def choked_flow_rate(
         "activation_energy": (3e4, 5e4),
     },
     title="Time of secondary drying",
+    symbols={
+        "moisture_dry_basis_inlet": "X_0",
+        "moisture_dry_basis_outlet": "X",
+        "moisture_dry_basis_equilibrium": "X_e",
+        "temperature_shelf_start": "T_{sh,0}",
+    },
 )
 def secondary_drying_time(
     moisture_dry_basis_inlet: MoistureDryBasis,

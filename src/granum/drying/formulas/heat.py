@@ -5,7 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula, watch
-from granum.core.constants import HOUR, STEFAN_BOLTZMANN
+from granum.core.constants import HOUR, STEFAN_BOLTZMANN, VACUUM_PERMITTIVITY
 from granum.core.kinds import (
     Area,
     Fraction,
@@ -30,7 +30,7 @@ VISCOSITY = 2.1e-5  # Pa s, of air
 
 @formula(
     source="treybal1980, ch. 12; geankoplis2003, ch. 9",
-    equation=r"h = 0.0204\,G^{0.8},\quad G\ \mathrm{in\ kg/(m^2 h)}",
+    equation=r"h = 0.0204\,G^{0.8},\quad G\text{ in }\mathrm{kg/(m^2 h)}",
     fitted={"gas_mass_flux": (2450.0 / HOUR, 29300.0 / HOUR)},
     typical={"gas_mass_flux": (1.0, 8.0)},
     output="heat_transfer_coefficient",
@@ -49,7 +49,7 @@ def heat_transfer_coefficient_parallel(gas_mass_flux: MassFlux) -> HeatTransferC
 
 @formula(
     source="treybal1980, ch. 12; geankoplis2003, ch. 9",
-    equation=r"h = 1.17\,G^{0.37},\quad G\ \mathrm{in\ kg/(m^2 h)}",
+    equation=r"h = 1.17\,G^{0.37},\quad G\text{ in }\mathrm{kg/(m^2 h)}",
     fitted={"gas_mass_flux": (3900.0 / HOUR, 19500.0 / HOUR)},
     typical={"gas_mass_flux": (1.2, 5.0)},
     output="heat_transfer_coefficient",
@@ -136,6 +136,7 @@ def nusselt_number_impinging(
     fitted={"reynolds": (90.0, 4000.0)},
     typical={"reynolds": (100.0, 3000.0)},
     title="Through-circulation of a bed of particles",
+    symbols={"colburn_factor": "j_D"},
 )
 def colburn_factor_through_circulation(
     reynolds: PositiveNumber, void_fraction: VoidFraction
@@ -178,6 +179,11 @@ def saturation_share(transfer_units: Ratio) -> Fraction:
     },
     title="Conduction in series through a heated wall",
     output="heat_transfer_coefficient",
+    symbols={
+        "heat_transfer_coefficient_inside": "h_i",
+        "heat_transfer_coefficient_product": "h_s",
+        "heat_transfer_coefficient": "U",
+    },
 )
 def heat_transfer_coefficient_series(
     heat_transfer_coefficient_inside: HeatTransferCoefficient,
@@ -201,10 +207,11 @@ def heat_transfer_coefficient_series(
 
 @formula(
     source="mollekopf1984",
-    equation=r"h_{bed} = \frac{2}{\sqrt\pi}\sqrt{\frac{\rho\,c\,\lambda}{t_R}}",
+    equation=r"h_{bed} = \frac{2\,e}{\sqrt{\pi\,t_R}},\quad e = \sqrt{\rho\,c\,\lambda}",
     typical={"thermal_effusivity": (200.0, 600.0), "contact_time": (1.0, 60.0)},
     title="Contact drying, penetration of heat into a bed",
     output="heat_transfer_coefficient",
+    symbols={"heat_transfer_coefficient": "h_{bed}"},
 )
 def heat_transfer_coefficient_penetration(
     thermal_effusivity: ThermalEffusivity, contact_time: Time
@@ -234,6 +241,14 @@ def heat_transfer_coefficient_penetration(
     },
     title="Radiation between product and heater",
     output="heat_duty",
+    symbols={
+        "temperature_radiator": "T_2",
+        "temperature_product": "T_1",
+        "area_product": "A_1",
+        "area_radiator": "A_2",
+        "emissivity_product": r"\varepsilon_1",
+        "emissivity_radiator": r"\varepsilon_2",
+    },
 )
 def heat_duty_radiation(
     temperature_radiator: Temperature,
@@ -281,7 +296,7 @@ def dielectric_power_density(
     >>> round(dielectric_power_density(1e9, 1.0, 1e4) / (0.556e-10 * 1e9 * 1e8), 2)
     1.0
     """
-    return 2.0 * jnp.pi * frequency * 8.8541878128e-12 * loss_factor * electric_field**2
+    return 2.0 * jnp.pi * frequency * VACUUM_PERMITTIVITY * loss_factor * electric_field**2
 
 
 @formula(
@@ -310,7 +325,7 @@ def penetration_depth(
 
 @formula(
     source="treybal1980, ch. 12",
-    equation=r"N = \frac{h\,(T_w - T_{sat}(p))}{L_v}",
+    equation=r"N = \frac{h\,(T_w - T_b)}{L_v}",
     typical={
         "wall_temperature": (340.0, 390.0),
         "boiling_temperature": (300.0, 330.0),

@@ -83,6 +83,7 @@ def moisture_dry_basis_from_mass(mass: Mass, dry_solid_mass: Mass) -> MoistureDr
         "dry_solid_flow": (0.1, 1.0),
     },
     title="Water evaporated from a solid",
+    symbols={"moisture_dry_basis_inlet": "X_1", "moisture_dry_basis_outlet": "X_2"},
 )
 def evaporation_rate(
     dry_solid_flow: MassFlow,
@@ -108,10 +109,19 @@ class WaterKinds(NamedTuple):
 
 @formula(
     source="treybal1980, ch. 12; keey1978",
-    equation=r"X_{unbound} = X - X_h,\quad X_{bound} = \min(X, X_h),\quad X_{free} = X - X_e",
+    equation=(
+        r"X_{unbound} = X - X_{bound},\quad X_{bound} = \min(X, X_h),\quad X_{free} = \max(X - X_e, "
+        r"0),\quad X_e = X_e(a_w)"
+    ),
     typical={"moisture_dry_basis": (0.3, 1.0), "water_activity": (0.2, 0.6)},
     title="Free, bound and unbound water",
     output="moisture_dry_basis",
+    symbols={
+        "moisture_dry_basis_unbound": "X_{unbound}",
+        "moisture_dry_basis_bound": "X_{bound}",
+        "moisture_dry_basis_free": "X_{free}",
+        "moisture_dry_basis_equilibrium": "X_e",
+    },
 )
 def kinds_of_water(
     moisture_dry_basis: MoistureDryBasis,
@@ -143,6 +153,7 @@ def kinds_of_water(
     typical={"water_activity": (0.1, 0.8)},
     title="Equilibrium moisture",
     output="moisture_dry_basis",
+    symbols={"moisture_dry_basis": "X_e"},
 )
 def equilibrium_moisture(
     water_activity: WaterActivity, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15
@@ -227,7 +238,7 @@ def isosteric_heat(
 
 @formula(
     source="keey1978",
-    equation=r"X = s\,X_{des} + (1-s)\,X_{ads}",
+    equation=r"X = s\,X_{des}(a_w) + (1-s)\,X_{ads}(a_w)",
     typical={"water_activity": (0.2, 0.8)},
     title="Moisture between the branches of hysteresis",
     output="moisture_dry_basis",
@@ -258,6 +269,7 @@ def hysteresis_moisture(
     equation=r"T_g = \frac{T_{gs} + k\,X\,T_{gw}}{1 + k X}",
     typical={"moisture_dry_basis": (0.02, 0.2), "glass_transition_temperature_dry": (330.0, 380.0)},
     title="Glass transition of a moist solid (Gordon–Taylor)",
+    symbols={"glass_transition_temperature_dry": "T_{gs}"},
 )
 def glass_transition_temperature(
     moisture_dry_basis: MoistureDryBasis,

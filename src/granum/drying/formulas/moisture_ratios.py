@@ -95,6 +95,7 @@ def diffusivity_from_slope_plate(rate_constant: Frequency, half_thickness: Lengt
     typical={"rate_constant": (1e-5, 1e-3), "radius": (2e-3, 5e-3)},
     title="Diffusivity from the slope for a sphere",
     output="diffusivity",
+    symbols={"radius": "R"},
 )
 def diffusivity_from_slope_sphere(rate_constant: Frequency, radius: Length) -> Diffusivity:
     """Effective diffusivity of a sphere from the slope of the logarithm of its moisture ratio at long times.

@@ -30,7 +30,9 @@ class GrowthMargin(NamedTuple):
 
 
 @formula(
-    source="beuchat1981", equation=r"m = a_{w,min} - a_w", title="Margin to the growth of microorganisms"
+    source="beuchat1981",
+    equation=r"\Delta a_w = a_{w,\Delta a_win} - a_w",
+    title="Margin to the growth of microorganisms",
 )
 def water_activity_margin(water_activity: WaterActivity) -> GrowthMargin:
     """How far a product lies below the water activity that each group of microorganisms needs.
@@ -53,6 +55,7 @@ def water_activity_margin(water_activity: WaterActivity) -> GrowthMargin:
     title="Highest moisture for keeping",
     output="moisture_dry_basis",
     typical={"temperature": (283.0, 303.0)},
+    symbols={"moisture_dry_basis": "X_{max}"},
 )
 def moisture_for_storage(
     temperature: Temperature = 298.15,

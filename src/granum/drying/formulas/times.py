@@ -55,13 +55,14 @@ def _dries(start: Any, end: Any) -> Any:
 
 @formula(
     source="treybal1980, ch. 12",
-    equation=r"N_c = \frac{h\,(T_g - T_h)}{L_v}",
+    equation=r"N_c = \frac{h\,(T_g - T_s)}{L_v}",
     typical={
         "temperature": (330.0, 400.0),
         "surface_temperature": (295.0, 320.0),
         "heat_transfer_coefficient": (20.0, 100.0),
     },
     title="Constant drying rate from heat transfer",
+    symbols={"temperature": "T_g"},
 )
 def drying_rate_constant(
     heat_transfer_coefficient: HeatTransferCoefficient,
@@ -92,6 +93,7 @@ def drying_rate_constant(
         "humidity_ratio": (0.005, 0.02),
         "mass_flux_coefficient": (0.01, 0.1),
     },
+    symbols={"humidity_ratio_surface": "w_s"},
 )
 def drying_rate_constant_mass(
     mass_flux_coefficient: MassFlux, humidity_ratio_surface: HumidityRatio, humidity_ratio: HumidityRatio
@@ -113,6 +115,7 @@ def drying_rate_constant_mass(
         "drying_rate_constant": (2e-4, 2e-3),
     },
     title="Time of the constant-rate period",
+    symbols={"moisture_dry_basis_start": "X_1", "moisture_dry_basis_end": "X_2", "drying_time": "t_1"},
 )
 def drying_time_constant_rate(
     dry_solid_mass: Mass,
@@ -147,6 +150,7 @@ def drying_time_constant_rate(
         "drying_rate_constant": (2e-4, 2e-3),
     },
     title="Time of a falling-rate period along a straight line",
+    symbols={"moisture_dry_basis_start": "X_1", "moisture_dry_basis_end": "X_2", "drying_time": "t_2"},
 )
 def drying_time_falling_rate(
     dry_solid_mass: Mass,
@@ -193,6 +197,7 @@ class DryingTime(NamedTuple):
         "drying_rate_constant": (2e-4, 2e-3),
     },
     title="Drying time over both periods",
+    symbols={"moisture_dry_basis_start": "X_1", "moisture_dry_basis_end": "X_2"},
 )
 def drying_time(
     dry_solid_mass: Mass,
@@ -230,7 +235,8 @@ def drying_time(
     source="vanmeel1958; keey1978",
     equation=(
         r"t = \frac{m_s}{A\,N_c}\left[(X_1-X_c)^+ + "
-        r"(X_c-X_e)\int_{\Phi_2}^{\Phi_1}\frac{d\Phi}{f(\Phi)}\right]"
+        r"(X_c-X_e)\int_{\Phi_2}^{\Phi_1}\frac{d\Phi}{f(\Phi)}\right],\quad "
+        r"\Phi_1 = \frac{X_1 - X_e}{X_c - X_e},\ \Phi_2 = \frac{X_2 - X_e}{X_c - X_e}"
     ),
     typical={
         "moisture_dry_basis_start": (0.4, 1.0),
@@ -241,6 +247,7 @@ def drying_time(
     },
     title="Drying time with a characteristic curve",
     output="drying_time",
+    symbols={"moisture_dry_basis_start": "X_1", "moisture_dry_basis_end": "X_2"},
 )
 def drying_time_characteristic(
     dry_solid_mass: Mass,
@@ -279,7 +286,7 @@ def drying_time_characteristic(
 
 @formula(
     source="chen2008rea",
-    equation=r"N = h_m\left[e^{-\Delta E_v/RT_s}\,\rho_{v,sat}(T_s) - \rho_{v,g}\right]",
+    equation=r"N = h_m\left[e^{-\Delta E_v/RT_s}\,\rho_{v,s} - \rho_{v,g}\right]",
     typical={
         "vapor_density_surface": (0.05, 0.1),
         "vapor_density": (0.005, 0.02),
@@ -289,6 +296,12 @@ def drying_time_characteristic(
     },
     title="Drying flux, reaction engineering approach",
     output="drying_rate_constant",
+    symbols={
+        "drying_rate_constant": "N",
+        "vapor_density_surface": r"\rho_{v,s}",
+        "vapor_density": r"\rho_{v,g}",
+        "temperature": "T_s",
+    },
 )
 def drying_flux_rea(
     mass_transfer_coefficient: MassTransferCoefficient,
@@ -309,10 +322,7 @@ def drying_flux_rea(
 
 @formula(
     source="chen2008rea",
-    equation=(
-        r"\Delta E_{v,b} = -R\,T_g\,\ln\varphi_g,\quad \frac{\Delta E_v}{\Delta E_{v,b}} = "
-        r"a\,e^{-b\,(X-X_b)^c}"
-    ),
+    equation=r"\Delta E_v = \Delta E_{v,b}\;a\,e^{-b\,(X-X_e)^c},\quad \Delta E_{v,b} = -R\,T\,\ln\varphi",
     typical={
         "moisture_dry_basis": (0.3, 1.0),
         "equilibrium_moisture": (0.02, 0.05),
@@ -360,6 +370,12 @@ def evaporation_activation_energy(
     },
     title="Drying flux from a receding front",
     output="drying_rate_constant",
+    symbols={
+        "drying_rate_constant": "N",
+        "vapor_density_surface": r"\rho_{v,s}",
+        "vapor_density": r"\rho_{v,g}",
+        "diffusivity": "D_e",
+    },
 )
 def drying_flux_receding_front(
     mass_transfer_coefficient: MassTransferCoefficient,
@@ -429,6 +445,7 @@ def drying_time_receding_front(
     },
     title="Heat flux to a wet surface by all ways",
     output="heat_flux",
+    symbols={"temperature": "T_g"},
 )
 def heat_flux_combined(
     heat_transfer_coefficient: HeatTransferCoefficient,

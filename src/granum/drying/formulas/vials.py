@@ -39,7 +39,7 @@ RAMP_STEPS, NODES = 24, 16
 MODEL = "pikal1985; shivkumar2019"
 
 
-@formula(source=MODEL, equation=r"K_v = K_C + \frac{K_P\,P}{1 + K_D\,P}", title="Heat transfer to a vial")
+@formula(source=MODEL, equation=r"K_v = K_C + \frac{K_P\,P_c}{1 + K_D\,P_c}", title="Heat transfer to a vial")
 def vial_heat_transfer(
     pressure_chamber: Pressure,
     vial_coefficient_contact: HeatTransferCoefficient,
@@ -87,7 +87,7 @@ def cake_vapor_resistance(
 
 @formula(
     source=MODEL,
-    equation=r"L_0 = \frac{V}{A_p\rho_i}\left[\rho_w - \frac{c\,(\rho_w-\rho_i)}{\rho_s}\right]",
+    equation=r"L_0 = \frac{V_f}{A_p\rho_i}\left[\rho_w - \frac{c\,(\rho_w-\rho_i)}{\rho_s}\right]",
     title="Height of a frozen fill",
     typical={
         "volume_fill": (1e-6, 5e-6),

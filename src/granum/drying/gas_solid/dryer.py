@@ -29,6 +29,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.drying.gas_solid.cells import Contact, Inlet, Profile
 from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting
 from granum.drying.gas_solid.liquor import composition, counted, moistened
@@ -37,7 +38,8 @@ from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Operated, Unit
+from granum.streams.units import Limits, Operated, Unit, Utilities
+from granum.streams.utilities import DUCT, HOT_GAS, ducted, warmth
 
 WIDER = 3.0  # steps in which a size is sought
 NOTES = "houdon2017, notes D table {table}"
@@ -135,6 +137,8 @@ class Dryer(Unit):
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "keey1978"),
     } | FLAMMABLE
 
+    utilities: ClassVar[Utilities] = HOT_GAS | {"electric_power_fan": Utility(DUCT)}
+
     @abstractmethod
     def through(self, *inlets: Any) -> Through:
         """The steady state."""
@@ -158,7 +162,26 @@ class Dryer(Unit):
         return found
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
-        return dried(feed, gas, inside.profile)
+        return self.dusted(dried(feed, gas, inside.profile))
+
+    def entrained(self, product: Stream, exhaust: Stream) -> Any:
+        """Share of each species and size class of the product that the exhaust takes along; None unless a
+        dryer says how much.
+        """
+        return None
+
+    def dusted(self, made: Dried) -> Dried:
+        """The outlets with the dust where it goes, its moisture with it."""
+        share = self.entrained(made.product, made.exhaust)
+        if share is None:
+            return made
+        product = made.product
+        share = share.reshape(share.shape + (1,) * len(product.mixture.axes))
+        dust = product.part(
+            solid=share, liquid=safe_divide(jnp.sum(product.solid * share), product.solid_flow)
+        )
+        rest = product.replace(solid=product.solid - dust.solid, liquid=product.liquid - dust.liquid)
+        return Dried(rest, made.exhaust + dust, made.heat_duty)
 
     def figures(
         self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any
@@ -166,7 +189,7 @@ class Dryer(Unit):
         feed, exhaust = counted(feed), outlets.exhaust
         found, humid = inside.profile, HumidMixture(feed.mixture)
         some = found.shares > 1e-9
-        evaporated = feed.liquid[0] - outlets.product.liquid[0]
+        evaporated = feed.liquid[0] - outlets.product.liquid[0] - (exhaust.liquid[0] - gas.liquid[0])
         return DryerFigures(
             evaporation_rate=evaporated,
             moisture_dry_basis=outlets.product.moisture_dry_basis,
@@ -191,6 +214,21 @@ class Dryer(Unit):
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product_highest - self.temperature_limit
         return found
+
+    def drawn(
+        self,
+        inside: Through,
+        outlets: Any,
+        figures: DryerFigures,
+        feed: Stream,
+        gas: Stream,
+        **_others: Any,
+    ) -> dict[str, Any]:
+        return warmth(gas) | {"electric_power_fan": ducted(gas, self.pressure_lost(feed, gas))}
+
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        """Pressure that the gas loses in the dryer itself, Pa; none worth counting unless a dryer says so."""
+        return 0.0
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         from granum.drying.profile_charts import drawn_profile

@@ -29,7 +29,7 @@ def _celsius(T: Any) -> Any:
     source="thompson1968; asaed245",
     fitted={"water_activity": (0.2, 0.95)},
     title="Modified Henderson isotherm",
-    equation=r"1 - a = \exp\left[-K\,(t + C)\,M^{N}\right],\quad M\ \mathrm{in\ \%}",
+    equation=r"1 - a = \exp\left[-K\,(t + C)\,M^{N}\right],\quad M\text{ in }\mathrm{\%}",
 )
 class HendersonModified(_Called):
     """Thompson's modification of Henderson for grains; the printed coefficients take moisture in percent, dry
@@ -108,7 +108,7 @@ class ChungPfost(_Called):
     source="iglesias1976; asaed245",
     fitted={"water_activity": (0.2, 0.95)},
     title="Modified Halsey isotherm",
-    equation=r"a = \exp\left[-e^{A + B t}\,M^{-C}\right],\quad M\ \mathrm{in\ \%}",
+    equation=r"a = \exp\left[-e^{A + B t}\,M^{-C}\right],\quad M\text{ in }\mathrm{\%}",
 )
 class HalseyModified(_Called):
     """Halsey with an exponential temperature factor, the standard's choice for oilseeds; coefficients for
@@ -144,7 +144,7 @@ class HalseyModified(_Called):
     source="chen1989; asaed245",
     fitted={"water_activity": (0.2, 0.95)},
     title="Modified Oswin isotherm",
-    equation=r"M = (A + B t)\left(\frac{a}{1-a}\right)^{1/C},\quad M\ \mathrm{in\ \%}",
+    equation=r"M = (A + B t)\left(\frac{a}{1-a}\right)^{1/C},\quad M\text{ in }\mathrm{\%}",
 )
 class OswinModified(_Called):
     """Oswin with a coefficient linear in °C, printed for moisture in percent and with the inverse exponent.

@@ -11,14 +11,17 @@ from typing import Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import Diffusivity, Length, Time, VoidFraction
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import AREA, PUMPED, compressed, pumped
 
 
 class BatchFilter(CakeFilter):
@@ -29,6 +32,10 @@ class BatchFilter(CakeFilter):
     _: KW_ONLY
     deliquoring_time: Time = 0.0
     dead_time: Time = 1200.0
+
+    utilities: ClassVar[Utilities] = (
+        PUMPED | AREA | {"electric_power_compressor": Utility("wakeman2005; turton2018, ch. 11")}
+    )
 
     @property
     @abc.abstractmethod
@@ -71,6 +78,19 @@ class BatchFilter(CakeFilter):
             s.solid_flow * cycle / loading,
             jnp.zeros(()),
         )
+
+    def drawn(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        plan = inside.plan
+        pushed = feed.slurry_volume_flow + (0.0 if wash is None else wash.liquid_volume_flow)
+        blown = STANDARD_ATMOSPHERE + self.pressure_drop
+        gas = self.gas_flow(inside, feed, blown, STANDARD_ATMOSPHERE) * plan.area_required
+        return {
+            "electric_power_pump": pumped(pushed, self.pressure_drop),
+            "electric_power_compressor": compressed(gas * plan.deliquoring_time / plan.cycle_time, blown),
+            "area_installed": self.area,
+        }
 
 
 class Press(BatchFilter):
@@ -137,6 +157,8 @@ class MembranePress(Press):
         "reached": Limit("share of the possible squeezing reached", 0.8, 1.0, "dimensionless", "shirato1974"),
     }
 
+    utilities: ClassVar[Utilities] = Press.utilities | {"electric_power_squeeze": Utility("wakeman2005")}
+
     @property
     def consolidation_ratio(self) -> Any:
         """Share of the possible squeezing that its time reaches."""
@@ -163,6 +185,14 @@ class MembranePress(Press):
         return super().measured(inside, outlets, figures, feed, wash) | {
             "squeezed": self.void_fraction_squeezed / self.void_fraction,
             "reached": self.consolidation_ratio,
+        }
+
+    def drawn(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        pressed = (1.0 - self.squeezed()) * inside.slurry.void_volume_flow
+        return super().drawn(inside, outlets, figures, feed, wash) | {
+            "electric_power_squeeze": pumped(pressed, self.pressure_drop)
         }
 
 

@@ -26,6 +26,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.filtration.formulas.deliquoring import (
     capillary_number_cake,
+    gas_velocity_deliquoring,
     irreducible_saturation,
     saturation_after_deliquoring,
 )
@@ -34,6 +35,7 @@ from granum.streams.cake_maker import CakeMaker
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
+from granum.streams.utilities import AIR_VISCOSITY
 
 # so that a feed without solid or without liquid gives numbers: m³/s of filtrate, kg of cake per m³ of it,
 # resistance 1/m of nothing
@@ -198,6 +200,31 @@ class CakeFilter(CakeMaker):
             thick,
             irreducible_saturation(capillary),
         )
+
+    def gas_flow(self, inside: Caked, feed: Stream, pressure: Any, pressure_outlet: Any) -> Any:
+        """Gas that blows through the drained cake, m³/s at its outlet and per area; at the saturation of the
+        end, when most passes.
+        """
+        s, thick = inside.slurry, jnp.maximum(inside.plan.cake_thickness, 1e-9)
+        lowest = irreducible_saturation(
+            capillary_number_cake(
+                self.diameter(feed),
+                self.void_fraction,
+                thick,
+                self.pressure_drop,
+                s.liquid_density,
+                self.surface_tension,
+            )
+        )
+        velocity = gas_velocity_deliquoring(
+            cake_permeability(self.resistance, self.void_fraction, s.solid_density),
+            thick,
+            pressure,
+            pressure_outlet,
+            AIR_VISCOSITY,
+            jnp.clip((inside.saturation - lowest) / (1.0 - lowest), 0.0, 1.0),
+        )
+        return jnp.where(feed.solid_flow > 0.0, velocity, 0.0)
 
     def inside(self, feed: Stream, wash: Stream | None = None) -> Caked:
         s = self.slurry(feed, wash)

@@ -9,21 +9,29 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.constants import RPM
+from granum.core.constants import RPM, STANDARD_ATMOSPHERE
 from granum.core.kinds import Fraction, Length, Permeability, RotationSpeed, Speed
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import AREA, PUMPED, evacuated, pumped
 
 # m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
 NO_WASH = 1e-12
+HARDEST = 1e3  # Pa, below which no filter is evacuated
+PRECOAT_DENSITY = 300.0  # kg/m³, of a settled layer of filter aid
 
 
 class ContinuousFilter(CakeFilter):
     """Abstract continuous filter: a turn time, and its shares for forming, washing and draining."""
+
+    utilities: ClassVar[Utilities] = (
+        PUMPED | AREA | {"electric_power_vacuum": Utility("wakeman2005; turton2018, ch. 11")}
+    )
 
     @property
     @abc.abstractmethod
@@ -61,6 +69,19 @@ class ContinuousFilter(CakeFilter):
             s.solid_flow * turn / most,
             use,
         )
+
+    def drawn(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        vacuum = jnp.maximum(STANDARD_ATMOSPHERE - self.pressure_drop, HARDEST)
+        draining = self.shares[2] * self.area
+        gas = self.gas_flow(inside, feed, STANDARD_ATMOSPHERE, vacuum) * draining
+        liquid = outlets.filtrate.liquid_volume_flow + outlets.washings.liquid_volume_flow
+        return {
+            "electric_power_pump": pumped(liquid, self.pressure_drop),
+            "electric_power_vacuum": evacuated(gas, vacuum),
+            "area_installed": self.area,
+        }
 
 
 class VacuumFilter(ContinuousFilter):
@@ -221,6 +242,10 @@ class PrecoatDrum(ContinuousFilter):
         "life": Limit("life of the precoat", 8 * 3600.0, math.inf, "s", "perry2008, § 18"),
     }
 
+    utilities: ClassVar[Utilities] = ContinuousFilter.utilities | {
+        "consumption_filter_aid": Utility("wakeman2005")
+    }
+
     @property
     def turn_time(self) -> Any:
         return 2.0 * jnp.pi / self.rotation_speed
@@ -239,3 +264,9 @@ class PrecoatDrum(ContinuousFilter):
             "knife": self.knife_advance / jnp.maximum(inside.plan.cake_thickness, 1e-12),
             "life": self.precoat_thickness / self.knife_advance * self.turn_time,
         }
+
+    def drawn(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        cut = PRECOAT_DENSITY * self.area * self.knife_advance / self.turn_time
+        return super().drawn(inside, outlets, figures, feed, wash) | {"consumption_filter_aid": cut}

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.constants import HOUR
+from granum.core.constants import HOUR, STANDARD_GRAVITY
 from granum.core.kinds import (
     Area,
     Density,
@@ -24,6 +24,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.filtration.formulas.backwash import backwash_velocity
 from granum.filtration.formulas.depth import (
     collector_efficiency_tufenkji,
@@ -33,7 +34,8 @@ from granum.filtration.formulas.depth import (
 from granum.filtration.kinds import HeadLossPerDeposit
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, PUMPED, pumped
 
 
 class DeepBedOutlets(NamedTuple):
@@ -102,6 +104,10 @@ class DeepBedFilter(Unit):
         "wash": Limit("wash water over filtrate", 0.0, 0.06, "dimensionless", "ives1970"),
         "thin": Limit("solids by volume in the feed", 0.0, 5e-4, "dimensionless", "svarovsky2001"),
     }
+
+    utilities: ClassVar[Utilities] = (
+        PUMPED | AREA | {"electric_power_backwash": Utility("ives1970; turton2018, ch. 11")}
+    )
 
     def _velocity(self, feed: Stream) -> Any:
         return jnp.maximum(feed.slurry_volume_flow / self.area, 1e-12)
@@ -172,3 +178,16 @@ class DeepBedFilter(Unit):
     ) -> dict[str, Any]:
         rate, run = HOUR * figures.superficial_velocity, inside.run / HOUR
         return {"rate": rate, "run": run, "wash": inside.water, "thin": feed.solids_volume_fraction}
+
+    def drawn(
+        self, inside: Cycle, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream
+    ) -> dict[str, Any]:
+        weight, light = STANDARD_GRAVITY * feed.liquid_density, feed.liquid_density
+        head = 0.5 * (inside.clean + jnp.maximum(self.head_loss_allowed, inside.clean))
+        bed = (1.0 - self.void_fraction) * self.bed_depth * STANDARD_GRAVITY * (self.particle_density - light)
+        washed = outlets.washings.liquid_volume_flow
+        return {
+            "electric_power_pump": pumped(feed.slurry_volume_flow, weight * head),
+            "electric_power_backwash": pumped(washed, jnp.maximum(bed, 0.0)),
+            "area_installed": self.area,
+        }

@@ -38,8 +38,12 @@ FINES_CARRIED = "The wash water carries the finest class off before: leave it ou
 
 @formula(
     source="richardson1954; fair1933",
-    equation=r"\frac{1-\varepsilon_0}{1}\sum_i\frac{x_i}{1-\varepsilon_i(U)} = 1 + E",
+    equation=(
+        r"(1-\varepsilon_0)\sum_i\frac{x_i}{1-\varepsilon_i(U_w)} = \frac{H}{H_0},\quad \varepsilon_i = "
+        r"\varepsilon(U_w; d_i, \rho_p, \rho_f, \eta)"
+    ),
     typical={**_SAND, "bed_expansion": (0.15, 0.3)},
+    symbols={"class_sizes": "d_i", "class_fractions": "x_i", "void_fraction_settled": r"\varepsilon_0"},
 )
 def backwash_velocity(
     bed_expansion: OpenFraction,
@@ -91,6 +95,7 @@ def backwash_velocity(
 
 @formula(
     source="fair1933",
+    title="Head loss in backwash",
     equation=r"H = L\,(1-\varepsilon_0)\frac{\rho_p - \rho_f}{\rho_f}",
     output="head_loss",
     typical=_SAND,

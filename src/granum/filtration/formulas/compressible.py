@@ -45,6 +45,7 @@ def _integral(m, load):
     source="tiller1987",
     equation=r"\bar\alpha = \frac{\Delta p}{\int_0^{\Delta p} dp_g/\alpha_z} = \frac{\alpha_0\,(1-n)\,\Delta p/p_a}{(1 + \Delta p/p_a)^{1-n} - 1}",  # noqa: E501
     typical=_TILLER,
+    symbols={"cake_resistance": r"\bar\alpha", "cake_resistance_unloaded": r"\alpha_0"},
 )
 def cake_resistance_tiller(
     pressure_drop: PressureDrop,
@@ -71,8 +72,10 @@ def cake_resistance_tiller(
 
 @formula(
     source="tiller1953",
+    title="Mean cake resistance from a local power law",
     equation=r"\alpha_z = \alpha_1\left(\frac{p_g}{p_0}\right)^n \Rightarrow \bar\alpha = (1-n)\,\alpha_1\left(\frac{\Delta p}{p_0}\right)^n",  # noqa: E501
     typical={"compressibility": (0.05, 0.9)},
+    symbols={"cake_resistance": r"\bar\alpha", "cake_resistance_local": r"\alpha_1"},
 )
 def cake_resistance_local_power(
     pressure_drop: PressureDrop,
@@ -95,9 +98,15 @@ def cake_resistance_local_power(
 
 @formula(
     source="tiller1987",
-    equation=r"1 - \bar\varepsilon = \frac{\int_0^{\Delta p} dp_g/\alpha_z}{\int_0^{\Delta p} dp_g/[\alpha_z(1-\varepsilon_z)]}",  # noqa: E501
+    title="Mean void fraction of a cake (Tiller)",
+    equation=(
+        r"1 - \bar\varepsilon = \frac{\int_0^{\Delta p} dp_g/\alpha_z}{\int_0^{\Delta p} "
+        r"dp_g/[\alpha_z(1-\varepsilon_z)]},\quad \alpha_z \propto \left(1 + \frac{p_g}{p_a}\right)^n,\ "
+        r"1 - \varepsilon_z = (1 - \varepsilon_0)\left(1 + \frac{p_g}{p_a}\right)^\beta"
+    ),
     typical=_TILLER,
     output="void_fraction",
+    symbols={"void_fraction": r"\bar\varepsilon", "void_fraction_unloaded": r"\varepsilon_0"},
 )
 def void_fraction_mean_tiller(
     pressure_drop: PressureDrop,
@@ -136,9 +145,19 @@ class CakeProfile(NamedTuple):
 
 @formula(
     source="tiller1987",
-    equation=r"p_g(z) = p_a\left\{\left[1 + \left(1-\frac zZ\right)\left(\left(1+\tfrac{\Delta p}{p_a}\right)^m - 1\right)\right]^{1/m} - 1\right\},\;"  # noqa: E501
-    r" m = 1 - n - \beta,\quad p + p_g = p_1",
+    equation=(
+        r"p_g(z) = p_a\left\{\left[1 + \left(1-\frac zZ\right)\left(\left(1+\tfrac{\Delta "
+        r"p}{p_a}\right)^m - 1\right)\right]^{1/m} - 1\right\},\; m = 1 - n - \beta,\quad p + p_g = "
+        r"p_1,\quad \alpha_z = \alpha_0\left(1 + \frac{p_g}{p_a}\right)^n,\ 1 - \varepsilon_z = (1 - "
+        r"\varepsilon_0)\left(1 + \frac{p_g}{p_a}\right)^\beta"
+    ),
     title="Profiles through a compressible cake",
+    symbols={
+        "cake_resistance_unloaded": r"\alpha_0",
+        "void_fraction_unloaded": r"\varepsilon_0",
+        "cake_resistance_local": r"\alpha_z",
+        "void_fraction_local": r"\varepsilon_z",
+    },
 )
 def cake_profile(
     relative_height: Annotated[Fraction, Series("points")],

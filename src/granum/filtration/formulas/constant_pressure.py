@@ -27,7 +27,8 @@ _SMALL = {"area": (0.1, 2.0), "filtrate_volume": (0.01, 0.2), "cake_resistance":
 
 @formula(
     source="ruth1935; geankoplis2003, § 14.2",
-    equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}V^2 + \frac{\eta\,R_s}{\Delta p\,\Omega}V",
+    title="Filtration time at constant pressure",
+    equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,A^2}V^2 + \frac{\eta\,R_s}{\Delta p\,A}V",
     typical=_SMALL,
 )
 def filtration_time_constant_pressure(
@@ -69,8 +70,9 @@ def filtration_time_constant_pressure(
 
 @formula(
     source="ruth1935",
+    title="Filtrate volume at constant pressure",
     equation=(
-        r"V = \Omega\left(\sqrt{\left(\frac{R_s}{\alpha W}\right)^2 + \frac{2\,\Delta "
+        r"V = A\left(\sqrt{\left(\frac{R_s}{\alpha W}\right)^2 + \frac{2\,\Delta "
         r"p\,t}{\eta\,\alpha\,W}} - \frac{R_s}{\alpha W}\right)"
     ),
     typical={**_SMALL, "time": (10.0, 3600.0)},
@@ -124,8 +126,8 @@ class Ruth(NamedTuple):
 @formula(
     source="ruth1935",
     equation=(
-        r"a = \frac{2\,\Delta p\,\Omega^2}{\eta\,\alpha\,W},\quad V_0 = \frac{\Omega R_s}{\alpha W},\quad "
-        r"t_0 = \frac{\eta R_s^2}{2\,\Delta p\,\alpha\,W}"
+        r"a = \frac{2\,\Delta p\,A^2}{\eta\,\alpha\,W},\quad V_0 = \frac{A R_s}{\alpha W},\quad t_0 = "
+        r"\frac{\eta R_s^2}{2\,\Delta p\,\alpha\,W}"
     ),
     title="Ruth's constants",
 )
@@ -156,7 +158,7 @@ def ruth_constants(
 
 @formula(
     source="ruth1935",
-    equation=r"u = \frac{\Delta p}{\eta\,(\alpha W V/\Omega + R_s)}",
+    equation=r"u = \frac{\Delta p}{\eta\,(\alpha W V/A + R_s)}",
     typical=_SMALL,
 )
 def filtrate_flux(
@@ -190,7 +192,8 @@ def filtrate_flux(
 
 @formula(
     source="geankoplis2003, § 14.2",
-    equation=r"q = \frac{f\,\Omega\,\Delta p}{\eta\,(\alpha W V/\Omega + R_s)}",
+    title="Flow of wash liquid",
+    equation=r"q = \frac{f\,A\,\Delta p}{\eta\,(\alpha W V/A + R_s)}",
     typical=_SMALL,
 )
 def filtrate_flow_washing(

@@ -34,7 +34,8 @@ _SMALL = {
 
 @formula(
     source="carman1938; mccabe2005, ch. 29",
-    equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{\Omega^2}\,t + \frac{\eta\,R_s}{\Omega}\,q",
+    title="Pressure drop at constant rate",
+    equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{A^2}\,t + \frac{\eta\,R_s}{A}\,q",
     typical=_SMALL,
 )
 def pressure_drop_constant_rate(
@@ -68,8 +69,13 @@ def pressure_drop_constant_rate(
 
 @formula(
     source="tiller1955",
-    equation=r"\Delta p - \frac{\eta R_s q}{\Omega} = \left(\frac{\eta\,\alpha_0\,W\,q^2\,t}{\Omega^2\,p_0^{\,n}}\right)^{\frac{1}{1-n}}",  # noqa: E501
+    title="Pressure drop at constant rate, compressible cake",
+    equation=(
+        r"\Delta p - \frac{\eta R_s q}{A} = "
+        r"\left(\frac{\eta\,\alpha_0\,W\,q^2\,t}{A^2\,p_0^{\,n}}\right)^{\frac{1}{1-n}}"
+    ),
     typical={**_SMALL, "compressibility": (0.0, 0.7), "cake_resistance_reference": (1e6, 1e8)},
+    symbols={"cake_resistance_reference": r"\alpha_0"},
 )
 def pressure_drop_constant_rate_compressible(
     time: Time,
@@ -108,6 +114,7 @@ def pressure_drop_constant_rate_compressible(
 
 @formula(
     source="carman1938",
+    title="Cake thickness at constant rate",
     equation=r"Z = \frac{1}{(1-\varepsilon)\rho_s}\left(\sqrt{\left(\frac{R_s}{2\alpha}\right)^2 + \frac{\Delta p\,W\,t}{\eta\,\alpha}} - \frac{R_s}{2\alpha}\right)",  # noqa: E501
     typical=_SMALL,
 )
@@ -134,8 +141,11 @@ def cake_thickness_constant_rate(
 
 @formula(
     source="geankoplis2003, § 14.2",
-    equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}(V^2 + V_r^2) + \frac{\eta\,R_s}{\Delta p\,\Omega}V,\quad "  # noqa: E501
-    r"V_r = \frac{\Omega}{\alpha W}\left(\frac{\Delta p\,\Omega}{\eta\,q} - R_s\right)",
+    title="Filtration time, constant rate then constant pressure",
+    equation=(
+        r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,A^2}(V^2 + V_r^2) + \frac{\eta\,R_s}{\Delta "
+        r"p\,A}V,\quad V_r = \frac{A}{\alpha W}\left(\frac{\Delta p\,A}{\eta\,q} - R_s\right)"
+    ),
     typical={**_SMALL, "filtrate_volume": (0.1, 1.0), "filtrate_flow": (1e-3, 1e-2)},
 )
 def filtration_time_rate_then_pressure(

@@ -30,7 +30,7 @@ from granum.filtration.kinds import RuthConstant
 
 @formula(
     source="carman1938",
-    equation=r"V_{opt} = \sqrt{a\,t_{mort}}",
+    equation=r"V = \sqrt{a\,t_{mort}}",
     output="filtrate_volume",
     title="Filtrate volume of the most productive cycle",
 )
@@ -61,7 +61,10 @@ class Cycle(NamedTuple):
 
 @formula(
     source="carman1938",
-    equation=r"V = \sqrt{\frac{a\,t_{mort}\,C}{1 + r}},\qquad \bar q = \frac{V}{t_{mort} + t + t_w}",
+    equation=(
+        r"V = \sqrt{\frac{a\,t_{mort}\,C}{1 + r}},\qquad \bar q = \frac{V}{t_{mort} + t + t_w},\qquad a "
+        r"= \frac{2\,\Delta p\,A^2}{\eta\,\alpha\,W}"
+    ),
     title="Best cycle of a batch filter",
     typical={"area": (1.0, 50.0)},
 )
@@ -98,7 +101,10 @@ def filtration_cycle(
 
 @formula(
     source="tiller1958",
-    equation=r"\Delta p = p_m\left(1 - \frac{q^2}{q_m^2}\right),\quad t = \int_0^V \frac{dV}{q}",
+    equation=(
+        r"\Delta p = p_m\left(1 - \frac{q^2}{q_m^2}\right),\quad t = \int_0^V \frac{dV}{q},\quad \Delta "
+        r"p = \frac{\eta\,q}{A}\left(\frac{\alpha W V}{A} + R_s\right)"
+    ),
     title="Filtration time with a centrifugal pump",
     output="filtration_time",
     typical={
@@ -141,9 +147,10 @@ def filtration_time_pump(
 
 @formula(
     source="geankoplis2003, § 14.2; mccabe2005, ch. 29",
+    title="Filtrate flow of a drum",
     equation=(
-        r"q = \frac{V(f\,t_c)}{t_c} \rightarrow \Omega\sqrt{\frac{2\,f\,\Delta "
-        r"p}{t_c\,\eta\,\alpha\,W}}\ (R_s = 0)"
+        r"q = \frac{V(f\,t_c)}{t_c} \rightarrow A\sqrt{\frac{2\,f\,\Delta p}{t_c\,\eta\,\alpha\,W}}\ "
+        r"(R_s = 0)"
     ),
     typical={"area": (1.0, 50.0), "cycle_time": (60.0, 600.0), "cake_resistance": (1e10, 1e12)},
 )

@@ -26,7 +26,12 @@ from granum.core.kinds import (
 _CAKE = {"cake_thickness": (5e-3, 5e-2), "particle_diameter": (1e-5, 2e-4), "pressure_drop": (2e4, 4e5)}
 
 
-@formula(source="wakeman2005", equation=r"p_b = \frac{4.6\,\sigma\,(1-\varepsilon)}{\varepsilon\,d_p}")
+@formula(
+    source="wakeman2005",
+    title="Threshold pressure of a cake",
+    equation=r"p_b = \frac{4.6\,\sigma\,(1-\varepsilon)}{\varepsilon\,d_p}",
+    symbols={"threshold_pressure": "p_b"},
+)
 def threshold_pressure_cake(
     particle_diameter: Length, void_fraction: VoidFraction, surface_tension: SurfaceTension
 ) -> PressureDrop:
@@ -40,6 +45,7 @@ def threshold_pressure_cake(
 
 @formula(
     source="wakeman2005",
+    title="Capillary number of a cake",
     equation=r"N_{cap} = \frac{\varepsilon^3 d_p^2\,(\rho_l g Z + \Delta p)}{(1-\varepsilon)^2 Z\,\sigma}",
     typical=_CAKE,
 )
@@ -133,7 +139,11 @@ def saturation_after_deliquoring(
     return jnp.where(some, irreducible_saturation + (1.0 - irreducible_saturation) * reduced, 1.0)
 
 
-@formula(source="wakeman2005", equation=r"X = \frac{S\,\varepsilon\,\rho_l}{(1-\varepsilon)\,\rho_s}")
+@formula(
+    source="wakeman2005",
+    title="Moisture of a cake, dry basis",
+    equation=r"X = \frac{S\,\varepsilon\,\rho_l}{(1-\varepsilon)\,\rho_s}",
+)
 def moisture_dry_basis_cake(
     cake_saturation: Fraction, void_fraction: VoidFraction, liquid_density: Density, solid_density: Density
 ) -> MoistureDryBasis:
@@ -161,6 +171,7 @@ def moisture_dry_basis_cake(
         "dynamic_viscosity": (1.5e-5, 2.5e-5),
         "reduced_saturation": (0.05, 0.8),
     },
+    symbols={"pressure": "p_1", "dynamic_viscosity": r"\eta_g"},
 )
 def gas_velocity_deliquoring(
     cake_permeability: Permeability,

@@ -32,7 +32,13 @@ _BED = {
 }
 
 
-@formula(source="iwasaki1937", equation=r"c = c_0\,e^{-\lambda z}", output="concentration", typical=_BED)
+@formula(
+    source="iwasaki1937",
+    equation=r"c = c_0\,e^{-\lambda L}",
+    output="concentration",
+    typical=_BED,
+    symbols={"concentration_inlet": "c_0"},
+)
 def concentration_iwasaki(
     concentration_inlet: Concentration, filter_coefficient: SpecificSurface, bed_depth: Distance
 ) -> Concentration:
@@ -46,9 +52,10 @@ def concentration_iwasaki(
 
 @formula(
     source="iwasaki1937; ives1970",
-    equation=r"\sigma = \lambda\,u\,c_0\,t\,e^{-\lambda z}",
+    equation=r"\sigma = \lambda\,U\,c_0\,t\,e^{-\lambda L}",
     typical=_BED,
     output="specific_deposit",
+    symbols={"concentration_inlet": "c_0"},
 )
 def specific_deposit_iwasaki(
     concentration_inlet: Concentration,
@@ -73,9 +80,11 @@ def specific_deposit_iwasaki(
 
 @formula(
     source="ives1970",
-    equation=r"H = H_0 + K\,u\,c_0\,t\,(1 - e^{-\lambda L})",
+    title="Head loss of a clogging deep bed",
+    equation=r"H = H_0 + K\,U\,c_0\,t\,(1 - e^{-\lambda L})",
     typical=_BED,
     output="head_loss",
+    symbols={"concentration_inlet": "c_0"},
 )
 def head_loss_deep_bed(
     head_loss_clean: Distance,
@@ -97,9 +106,11 @@ def head_loss_deep_bed(
 
 @formula(
     source="ives1970",
-    equation=r"t = \frac{H_{max} - H_0}{K\,u\,c_0\,(1 - e^{-\lambda L})}",
+    title="Run time of a deep bed",
+    equation=r"t = \frac{H_{max} - H_0}{K\,U\,c_0\,(1 - e^{-\lambda L})}",
     typical={**_BED, "head_loss_clean": (0.2, 0.5), "head_loss_allowed": (1.5, 3.0)},
     output="run_time",
+    symbols={"concentration_inlet": "c_0"},
 )
 def run_time_deep_bed(
     head_loss_allowed: Distance,
@@ -149,8 +160,12 @@ def filter_coefficient(
     source="tufenkji2004",
     fitted={"particle_diameter": (1e-8, 1e-5)},
     equation=(
-        r"\eta = 2.4A_S^{1/3}N_R^{-0.081}N_{Pe}^{-0.715}N_{vdW}^{0.052} + 0.55A_S N_R^{1.675}N_A^{0.125} + "
-        r"0.22N_R^{-0.24}N_G^{1.11}N_{vdW}^{0.053}"
+        r"\eta_0 = 2.4A_S^{1/3}N_R^{-0.081}N_{Pe}^{-0.715}N_{vdW}^{0.052} + 0.55A_S "
+        r"N_R^{1.675}N_A^{0.125} + 0.22N_R^{-0.24}N_G^{1.11}N_{vdW}^{0.053},\quad A_S = "
+        r"\frac{2(1-\gamma^5)}{2 - 3\gamma + 3\gamma^5 - 2\gamma^6},\ \gamma = "
+        r"(1-\varepsilon)^{1/3},\quad N_R = \frac{d_p}{d_c},\ N_{Pe} = \frac{3\pi\eta\,d_p d_c U}{kT},\ "
+        r"N_{vdW} = \frac{A_H}{kT},\ N_A = \frac{A_H}{3\pi\eta\,d_p^2 U},\ N_G = "
+        r"\frac{d_p^2(\rho_p-\rho_f)g}{18\,\eta\,U}"
     ),
     output="collector_efficiency",
     typical={
@@ -163,6 +178,7 @@ def filter_coefficient(
         "temperature": (280.0, 310.0),
         "hamaker_constant": (3e-21, 3e-20),
     },
+    symbols={"collector_efficiency": r"\eta_0", "hamaker_constant": "A_H"},
 )
 def collector_efficiency_tufenkji(
     particle_diameter: Length,
@@ -199,9 +215,10 @@ def collector_efficiency_tufenkji(
 
 @formula(
     source="carman1938; carman1937",
+    title="Head loss of the clean bed",
     fitted={"reynolds_bed": (0.0, 10.0)},
     equation=(
-        r"\frac{H}{L} = \frac{36\,h_K\,\eta\,u\,(1-\varepsilon)^2}{\rho_l\,g\,\psi^2 "
+        r"\frac{H}{L} = \frac{36\,h_K\,\eta\,U\,(1-\varepsilon)^2}{\rho_l\,g\,\psi^2 "
         r"d_c^2\,\varepsilon^3}"
     ),
     output="head_loss",

@@ -30,7 +30,8 @@ _MAT = {
 
 @formula(
     source="davies1953",
-    equation=r"\Delta p = \frac{64\,\eta\,u\,L\,\beta^{1.5}(1 + 56\beta^3)}{d_f^2}",
+    title="Pressure drop of a fibrous filter",
+    equation=r"\Delta p = \frac{64\,\eta\,U\,L\,\beta^{1.5}(1 + 56\beta^3)}{d_f^2}",
     fitted={"fiber_fraction": (0.006, 0.3)},
     typical=_MAT,
 )
@@ -60,6 +61,7 @@ def pressure_drop_fibers(
 
 @formula(
     source="brown1993",
+    title="Penetration of a fibrous filter",
     equation=r"P = \exp\left(-\frac{4\,\beta\,E\,L}{\pi\,(1-\beta)\,d_f}\right)",
     typical=_MAT,
     output="penetration",
@@ -78,7 +80,8 @@ def penetration_fibers(
 
 @formula(
     source="cooper2011",
-    equation=r"\Delta p = K_1 v + K_2\,c\,v^2\,t",
+    title="Pressure drop of a dust cake",
+    equation=r"\Delta p = K_1 U + K_2\,c\,U^2\,t",
     typical={
         "superficial_velocity": (0.005, 0.03),
         "concentration_inlet": (1e-3, 2e-2),

@@ -21,7 +21,7 @@ NO_FILTRATE = "The cake would hold all the liquid of the slurry: no filtrate is 
 TOO_HEAVY = "The dry solid alone would take more room than that."
 
 
-@formula(source="carman1938", equation=r"s = \frac{M_s}{M_p}")
+@formula(source="carman1938", title="Mass fraction of solids by weighing", equation=r"s = \frac{M_s}{M_p}")
 def solids_mass_fraction_weighed(solid_mass: Mass, slurry_mass: Mass) -> MassFraction:
     """Mass fraction of solids of a slurry from a weighed sample and its dry solid.
 
@@ -34,6 +34,7 @@ def solids_mass_fraction_weighed(solid_mass: Mass, slurry_mass: Mass) -> MassFra
 
 @formula(
     source="carman1938",
+    title="Mass fraction of solids of a sample",
     equation=r"s = \frac{M_s}{V_p\,\rho_l + M_s\,(1 - \rho_l/\rho_s)}",
     typical={"slurry_volume": (2e-3, 1e-2)},
 )
@@ -55,7 +56,12 @@ def solids_mass_fraction_sampled(
     return solid_mass / (slurry_volume * liquid_density + solid_mass * (1.0 - liquid_density / solid_density))
 
 
-@formula(source="carman1938", equation=r"s = \frac{M_s}{\rho_l V + M_s}", typical={"volume": (1e-3, 1e-2)})
+@formula(
+    source="carman1938",
+    title="Mass fraction of solids after mixing",
+    equation=r"s = \frac{M_s}{\rho_l V + M_s}",
+    typical={"volume": (1e-3, 1e-2)},
+)
 def solids_mass_fraction_mixed(solid_mass: Mass, volume: Volume, liquid_density: Density) -> MassFraction:
     """Mass fraction of solids of a slurry made from a mass of solid and a volume of clear liquid.
 
@@ -67,6 +73,7 @@ def solids_mass_fraction_mixed(solid_mass: Mass, volume: Volume, liquid_density:
 
 @formula(
     source="carman1938",
+    title="Void fraction of a cake",
     equation=r"\varepsilon = 1 - \frac{M}{V_g\,\rho_s}",
     typical={"dry_cake_mass": (0.1, 0.2), "cake_volume": (1.4e-4, 2e-4)},
 )
@@ -125,7 +132,7 @@ def dry_cake_per_filtrate(
 
 @formula(
     source="ruth1935",
-    equation=r"Z = \frac{W V}{\Omega\,(1 - \varepsilon)\,\rho_s}",
+    equation=r"Z = \frac{W V}{A\,(1 - \varepsilon)\,\rho_s}",
     typical={"filtrate_volume": (0.01, 1.0), "area": (0.5, 10.0)},
 )
 def cake_thickness(

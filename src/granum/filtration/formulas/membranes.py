@@ -39,9 +39,11 @@ def _driving(pressure_drop: Any, osmotic_pressure: Any) -> Any:
 
 @formula(
     source="cheryan1998",
+    title="Flux of a membrane, resistances in series",
     equation=r"J = \frac{\Delta p - \Delta\pi}{\eta\,(R_m + R_c + R_f)}",
     typical=_MEMBRANE,
     output="filtrate_flux",
+    symbols={"medium_resistance": "R_m", "filtrate_flux": "J"},
 )
 def filtrate_flux_membrane(
     pressure_drop: PressureDrop,
@@ -65,9 +67,11 @@ def filtrate_flux_membrane(
 
 @formula(
     source="wijmans1995",
+    title="Flux of a membrane from its permeance",
     equation=r"J = A\,(\Delta p - \Delta\pi)",
     output="filtrate_flux",
     typical={"pressure_drop": (1e6, 6e6)},
+    symbols={"filtrate_flux": "J"},
 )
 def filtrate_flux_permeance(
     pressure_drop: PressureDrop, membrane_permeance: Permeance, osmotic_pressure: Pressure = 0.0
@@ -82,7 +86,12 @@ def filtrate_flux_permeance(
     return membrane_permeance * _driving(pressure_drop, osmotic_pressure)
 
 
-@formula(source="vanthoff1887", equation=r"\pi = i\,c\,R\,T", output="osmotic_pressure")
+@formula(
+    source="vanthoff1887",
+    equation=r"\pi = i\,c\,R\,T",
+    output="osmotic_pressure",
+    symbols={"osmotic_pressure": r"\pi"},
+)
 def osmotic_pressure(
     solute_molar_concentration: MolarConcentration,
     dissociation_number: PositiveNumber = 1.0,
@@ -101,9 +110,11 @@ def osmotic_pressure(
 
 @formula(
     source="wijmans1995",
+    title="Rejection by solution and diffusion",
     equation=r"R = \frac{J}{J + B}",
     output="rejection",
     typical={"filtrate_flux": (2e-6, 3e-5)},
+    symbols={"filtrate_flux": "J"},
 )
 def rejection_solution_diffusion(filtrate_flux: Speed, solute_permeability: Speed) -> Fraction:
     """Rejection of a dense membrane: solute passes at its own rate whatever the pressure, so that more flux
@@ -118,6 +129,7 @@ def rejection_solution_diffusion(filtrate_flux: Speed, solute_permeability: Spee
 
 @formula(
     source="cheryan1998",
+    title="Limiting flux of a membrane",
     equation=r"J = k\,\ln\frac{c_g - c_p}{c_b - c_p}",
     output="filtrate_flux",
     typical={
@@ -125,6 +137,13 @@ def rejection_solution_diffusion(filtrate_flux: Speed, solute_permeability: Spee
         "concentration_bulk": (5.0, 100.0),
         "concentration_permeate": (0.0, 1.0),
         "mass_transfer_coefficient": (1e-6, 1e-5),
+    },
+    symbols={
+        "mass_transfer_coefficient": "k",
+        "concentration_gel": "c_g",
+        "concentration_bulk": "c_b",
+        "filtrate_flux": "J",
+        "concentration_permeate": "c_p",
     },
 )
 def filtrate_flux_limiting(
@@ -153,6 +172,7 @@ def filtrate_flux_limiting(
 
 @formula(
     source="cheryan1998",
+    title="Concentration of a retentate, batch",
     equation=r"c = c_0\,\mathrm{VCF}^{R}",
     output="concentration",
     typical={
@@ -160,6 +180,7 @@ def filtrate_flux_limiting(
         "rejection": (0.5, 1.0),
         "volume_concentration_factor": (1.5, 20.0),
     },
+    symbols={"concentration_inlet": "c_0"},
 )
 def concentration_retentate_batch(
     concentration_inlet: Concentration, volume_concentration_factor: PositiveNumber, rejection: Fraction
@@ -179,9 +200,11 @@ def concentration_retentate_batch(
 
 @formula(
     source="cheryan1998",
-    equation=r"\Omega = \frac{Q_p}{J}",
+    title="Membrane area",
+    equation=r"A = \frac{q}{J}",
     typical={"filtrate_flux": (5e-6, 5e-5)},
     output="filtration_area",
+    symbols={"filtration_area": "A", "filtrate_flux": "J"},
 )
 def filtration_area_membrane(filtrate_flow: VolumeFlow, filtrate_flux: Speed) -> Area:
     """Membrane area for a permeate flow at a mean flux.

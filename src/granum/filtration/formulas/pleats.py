@@ -31,7 +31,8 @@ def _parts(v: Any, h: Any, p: Any, t: Any, eta: Any, k: Any) -> tuple[Any, Any]:
 
 @formula(
     source="chen1995",
-    equation=r"\Delta p = K_1\frac{v p}{2h} + \frac{8\,\eta\,v\,p\,h}{(p/2 - L)^3}",
+    title="Pressure drop of a pleated filter",
+    equation=r"\Delta p = K_1\frac{U p}{2h} + \frac{8\,\eta\,U\,p\,h}{(p/2 - L)^3}",
     output="pressure_drop",
     typical=_PLEAT,
 )
@@ -61,7 +62,11 @@ def pressure_drop_pleated(
 
 @formula(
     source="chen1995",
-    equation=r"\frac{\partial\Delta p}{\partial p} = 0",
+    title="Best pitch of the pleats",
+    equation=(
+        r"\frac{\partial\Delta p}{\partial p} = 0,\quad \Delta p = K_1\frac{v p}{2h} + "
+        r"\frac{8\,\eta\,v\,p\,h}{(p/2 - L)^3}"
+    ),
     output="pleat_pitch",
     typical=_PLEAT,
 )

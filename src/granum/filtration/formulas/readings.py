@@ -100,8 +100,8 @@ def filtration_time_ruth(
     typical=_SMALL,
     title="Resistances from readings at constant pressure",
     equation=(
-        r"\frac{t}{V} = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}V + \frac{\eta\,R_s}{\Delta "
-        r"p\,\Omega}"
+        r"\alpha = \frac{2\,\Delta p\,A^2}{\eta\,W}\,a,\quad R_s = \frac{\Delta p\,A}{\eta}\,b,\quad "
+        r"\frac{t}{V} = a\,V + b"
     ),
 )
 def resistances_constant_pressure(
@@ -141,7 +141,10 @@ def resistances_constant_pressure(
         "filtrate_flow": (1e-5, 1e-4),
         "area": (0.5, 2.0),
     },
-    equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{\Omega^2}\,t + \frac{\eta\,R_s}{\Omega}\,q",
+    equation=(
+        r"\alpha = \frac{A^2}{\eta\,W\,q^2}\,a,\quad R_s = \frac{A}{\eta\,q}\,b,\quad \Delta p = a\,t + "
+        r"b"
+    ),
 )
 def resistances_constant_rate(
     time: Annotated[Time, Series("points")],

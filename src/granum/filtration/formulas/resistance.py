@@ -20,7 +20,7 @@ from granum.filtration.kinds import OVER_COMPRESSIBLE
 
 @formula(
     source="carman1938",
-    equation=r"\alpha = \frac{36\,h_K\,(1 - \varepsilon)}{d_g^2\,\varepsilon^3\,\rho_s}",
+    equation=r"\alpha = \frac{36\,h_K\,(1 - \varepsilon)}{d_p^2\,\varepsilon^3\,\rho_s}",
     fitted={"void_fraction": (0.3, 0.6)},
 )
 def cake_resistance_kozeny_carman(
@@ -62,9 +62,11 @@ def cake_permeability(
 
 @formula(
     source="mccabe2005, ch. 29",
+    title="Cake resistance by a power law",
     fitted={"compressibility": (0.0, 1.0)},
     equation=r"\bar\alpha = \alpha_0\left(\frac{\Delta p}{p_0}\right)^n",
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},
+    symbols={"cake_resistance": r"\bar\alpha", "cake_resistance_reference": r"\alpha_0"},
 )
 def cake_resistance_power_law(
     pressure_drop: PressureDrop,
@@ -93,10 +95,12 @@ def cake_resistance_power_law(
 
 @formula(
     source="tiller1953; mccabe2005, ch. 29",
+    title="Cake resistance with a threshold pressure",
     fitted={"compressibility": (0.0, 1.0)},
     equation=r"\bar\alpha = \alpha_0\,\max\left(1, \frac{\Delta p}{p_s}\right)^n",
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},
     family="cake_resistance",
+    symbols={"cake_resistance": r"\bar\alpha", "cake_resistance_reference": r"\alpha_0"},
 )
 def cake_resistance_threshold(
     pressure_drop: PressureDrop,

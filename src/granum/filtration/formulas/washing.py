@@ -30,6 +30,7 @@ def wash_effluent_concentration(wash_ratio: Ratio, dispersion_number: PositiveNu
 
 @formula(
     source="sherman1964; wakeman2005",
+    title="Solute left in the cake, with dispersion",
     equation=r"F = 1 - w + \tfrac12\left[(w-1)\operatorname{erfc}\left(\tfrac{1-w}{2\sqrt w}\sqrt{D_n}\right)"
     r" + (w+1)\,e^{D_n}\operatorname{erfc}\left(\tfrac{1+w}{2\sqrt w}\sqrt{D_n}\right)\right]",
     fitted={"dispersion_number": (1e-2, 1e3)},
@@ -63,6 +64,7 @@ def solute_remaining_dahlstrom(wash_ratio: Ratio, displacement_efficiency: Fract
 
 @formula(
     source="wakeman2005",
+    title="Axial dispersion in a cake",
     equation=r"D_L = D\left(\frac{1}{\sqrt2} + 1.75\,\frac{v d_p}{D}\right)",
     typical={"velocity": (1e-5, 1e-3), "particle_diameter": (1e-5, 2e-4)},
 )

@@ -28,7 +28,8 @@ from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, FANNED, fanned
 
 _UNSOLVED = (
     "The overflow that leaves the bed with its mass was not found: check the solid, the gas and the area."
@@ -98,6 +99,8 @@ class FluidizedBed(Unit):
         ),
         "distributor": Limit("distributor to bed pressure drop", 0.2, 0.4, "dimensionless", "kunii1991"),
     }
+
+    utilities: ClassVar[Utilities] = FANNED | AREA
 
     @classmethod
     def size(
@@ -198,4 +201,10 @@ class FluidizedBed(Unit):
             "fluidized": U / figures.minimum_fluidization_velocity,
             "carried": U / fall,
             "distributor": jnp.asarray(self.distributor_ratio),
+        }
+
+    def drawn(self, inside: Blown, outlets: BedOutlets, figures: BedFigures, feed: Stream) -> dict[str, Any]:
+        return {
+            "electric_power_fan": fanned(feed.gas_volume_flow, figures.pressure_drop),
+            "area_installed": self.area,
         }

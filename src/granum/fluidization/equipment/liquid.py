@@ -30,7 +30,8 @@ from granum.fluidization.formulas.minimum_beds import minimum_fluidization_veloc
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, PUMPED, pumped
 
 LEAST, FULLEST = 1e-12, 0.999
 
@@ -83,6 +84,8 @@ class LiquidFluidizedBed(Unit):
             "liquid velocity over terminal velocity", 0.0, 1.0, "dimensionless", "richardson1954"
         ),
     }
+
+    utilities: ClassVar[Utilities] = PUMPED | AREA
 
     @classmethod
     def size(
@@ -139,4 +142,12 @@ class LiquidFluidizedBed(Unit):
         return {
             "fluidized": U / figures.minimum_fluidization_velocity,
             "carried": U / figures.terminal_velocity,
+        }
+
+    def drawn(
+        self, inside: Any, outlets: LiquidOutlets, figures: LiquidBedFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {
+            "electric_power_pump": pumped(feed.slurry_volume_flow, inside),
+            "area_installed": self.area,
         }

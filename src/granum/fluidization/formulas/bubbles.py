@@ -39,7 +39,12 @@ def surplus(U: Any, U_mf: Any) -> Any:
     return jnp.maximum(extra, 1e-12)
 
 
-@formula(source="davidson1963; davies1950", equation=r"u_{b\infty} = 0.711\sqrt{g d_b}")
+@formula(
+    source="davidson1963; davies1950",
+    title="Rise velocity of a single bubble",
+    equation=r"u_{b\infty} = 0.711\sqrt{g d_b}",
+    symbols={"bubble_rise_velocity": r"u_{b\infty}"},
+)
 def bubble_rise_velocity_single(bubble_diameter: Length, gravity: Acceleration = STANDARD_GRAVITY) -> Speed:
     """Rise velocity of a single bubble in a bed at minimum fluidization by Davidson and Harrison.
 
@@ -74,6 +79,7 @@ def bubble_rise_velocity_davidson_harrison(
     source="darton1977",
     equation=r"d_b = 0.54\,(U-U_{mf})^{0.4}(z + 4\sqrt{A_0})^{0.8} g^{-0.2}",
     typical=SPEEDS,
+    symbols={"height": "z"},
 )
 def bubble_diameter_darton(
     superficial_velocity: Speed,
@@ -104,6 +110,7 @@ def bubble_diameter_darton(
     equation=r"d_b = d_{bm} - (d_{bm} - d_{b0})\,e^{-0.3 z/D},\ d_{bm} = 1.64\,[A(U-U_{mf})]^{0.4}",
     fitted={"diameter": (0.0, 1.3), "minimum_fluidization_velocity": (0.005, 0.2)},
     typical={**SPEEDS, "diameter": (0.2, 1.2), "orifices_per_area": (500.0, 5000.0)},
+    symbols={"height": "z"},
 )
 def bubble_diameter_mori_wen(
     superficial_velocity: Speed,
@@ -146,6 +153,7 @@ def bubble_diameter_mori_wen(
     equation=r"d_b = 0.00853\,[1 + 27.2(U-U_{mf})]^{1/3}(1 + 6.84 z)^{1.21}",
     fitted={"minimum_fluidization_velocity": (0.01, 0.08), "excess_velocity": (0.05, 0.3)},
     typical={**SPEEDS, "superficial_velocity": (0.15, 0.3), "minimum_fluidization_velocity": (0.01, 0.08)},
+    symbols={"height": "z"},
 )
 def bubble_diameter_werther(
     superficial_velocity: Speed, minimum_fluidization_velocity: Speed, height: Distance
@@ -168,8 +176,10 @@ def bubble_diameter_werther(
 
 @formula(
     source="davidson1963; geldart1986",
+    title="Largest stable bubble",
     equation=r"d_{b,\max} = \frac{2 v_t^2}{g}",
     typical={"terminal_velocity": (0.1, 1.5)},
+    symbols={"bubble_diameter": r"d_{b,\max}"},
 )
 def bubble_diameter_maximum_stable(
     terminal_velocity: Speed, gravity: Acceleration = STANDARD_GRAVITY
@@ -209,8 +219,10 @@ def bubble_fraction_davidson_harrison(
 
 @formula(
     source="davidson1963; kunii1991, ch. 10",
+    title="Exchange between bubble and cloud",
     equation=r"K_{bc} = 4.5\frac{U_{mf}}{d_b} + 5.85\frac{D^{1/2} g^{1/4}}{d_b^{5/4}}",
     typical={"diffusivity": (1e-5, 1e-4), "bubble_diameter": (0.02, 0.2)},
+    symbols={"bubble_exchange_rate": "K_{bc}"},
 )
 def bubble_exchange_rate_cloud(
     minimum_fluidization_velocity: Speed,
@@ -234,8 +246,10 @@ def bubble_exchange_rate_cloud(
 
 @formula(
     source="kunii1991, ch. 10",
+    title="Exchange between cloud and emulsion",
     equation=r"K_{ce} = 6.77\left(\frac{\varepsilon_{mf} D\, u_{br}}{d_b^3}\right)^{1/2}",
     typical={"diffusivity": (1e-5, 1e-4), "bubble_diameter": (0.02, 0.2)},
+    symbols={"bubble_exchange_rate": "K_{ce}", "void_fraction": r"\varepsilon_{mf}"},
 )
 def bubble_exchange_rate_emulsion(
     bubble_diameter: Length,
@@ -254,8 +268,13 @@ def bubble_exchange_rate_emulsion(
 
 @formula(
     source="kunii1991, ch. 10",
-    equation=r"\frac{1}{K_{be}} = \frac{1}{K_{bc}} + \frac{1}{K_{ce}}",
+    equation=(
+        r"\frac{1}{K_{be}} = \frac{1}{K_{bc}} + \frac{1}{K_{ce}},\quad K_{bc} = 4.5\frac{U_{mf}}{d_b} + "
+        r"5.85\frac{D^{1/2} g^{1/4}}{d_b^{5/4}},\ K_{ce} = 6.77\left(\frac{\varepsilon_{mf} D\, "
+        r"u_{br}}{d_b^3}\right)^{1/2}"
+    ),
     typical={"diffusivity": (1e-5, 1e-4), "bubble_diameter": (0.02, 0.2)},
+    symbols={"void_fraction": r"\varepsilon_{mf}"},
 )
 def bubble_exchange_rate(
     minimum_fluidization_velocity: Speed,

@@ -31,6 +31,7 @@ from granum.core.kinds import (
 )
 from granum.fluidization.formulas.buoyancy import archimedes, excess
 from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
+from granum.particles.definitions import ARCHIMEDES, GALILEO, reynolds_of
 from granum.particles.formulas.terminal import terminal_velocity
 
 MORE_THAN_SOLID = "The layer would weigh more than one without voids."
@@ -56,7 +57,7 @@ def _carried(e: Any) -> Any:
 
 @formula(
     source="richardson1954",
-    equation=r"\varepsilon = (U/U_t)^{1/n}",
+    equation=r"\varepsilon = (U/v_t)^{1/n}",
     output="bed_void_fraction",
     fitted={"bed_void_fraction": (0.4, 1.0)},
     typical={
@@ -92,7 +93,9 @@ def bed_void_fraction_richardson_zaki(
     equation=(
         r"\varepsilon = "
         r"1.58\,\mathrm{Re}^{0.33}\,\mathrm{Ga}^{-0.21}\left(\frac{\rho_p-\rho_f}{\rho_f}\right)^{-0.22}"
-    ),
+    )
+    + reynolds_of("U")
+    + GALILEO,
     output="bed_void_fraction",
     fitted={"bed_void_fraction": (-inf, 0.85)},
     typical=LIQUID,
@@ -124,7 +127,9 @@ def bed_void_fraction_riba(
 
 @formula(
     source="wenyu1966",
-    equation=r"\varepsilon^{4.7}\,\mathrm{Ar} = 18\,\mathrm{Re} + 2.7\,\mathrm{Re}^{1.687}",
+    equation=r"\varepsilon^{4.7}\,\mathrm{Ar} = 18\,\mathrm{Re} + 2.7\,\mathrm{Re}^{1.687}"
+    + reynolds_of("U")
+    + ARCHIMEDES,
     fitted={"reynolds": (0.0, 1000.0)},
     output="bed_void_fraction",
     typical=LIQUID,
@@ -159,9 +164,11 @@ def bed_void_fraction_wen_yu(
 
 @formula(
     source="kunii1991, ch. 3",
+    title="Height of an expanded bed",
     equation=r"H = H_0\,\frac{1-\varepsilon_0}{1-\varepsilon}",
     output="height",
     typical={"void_fraction": (0.5, 0.8), "void_fraction_settled": (0.38, 0.45)},
+    symbols={"height": "H_0", "=height": "H", "void_fraction_settled": r"\varepsilon_0"},
 )
 def height_expanded(
     height: Length, void_fraction_settled: VoidFraction, void_fraction: VoidFraction
@@ -176,6 +183,7 @@ def height_expanded(
 
 @formula(
     source="kunii1991, ch. 3, eq. 17",
+    title="Pressure drop of a fluidized bed",
     equation=r"\Delta p = \frac{m\,g}{A}\left(1 - \frac{\rho_f}{\rho_p}\right)",
     output="pressure_drop",
     typical=BED,
@@ -200,6 +208,7 @@ def pressure_drop_fluidized_bed(
 
 @formula(
     source="kunii1991, ch. 3, eq. 17",
+    title="Void fraction of the bed from the pressure drop",
     equation=r"\varepsilon = 1 - \frac{\Delta p}{H g (\rho_p - \rho_f)}",
     output="bed_void_fraction",
     typical={"pressure_drop": (5e3, 8e3), "height": (0.8, 1.2), "fluid_density": (0.5, 5.0)},
@@ -236,6 +245,7 @@ def bed_void_fraction_from_pressure_drop(
         "minimum_fluidization_velocity": (0.005, 0.01),
         "void_fraction": (0.4, 0.45),
     },
+    symbols={"void_fraction": r"\varepsilon_{mf}"},
 )
 def expansion_exponent(
     terminal_velocity: Speed, minimum_fluidization_velocity: Speed, void_fraction: VoidFraction
@@ -275,7 +285,8 @@ class GradedBed(NamedTuple):
     equation=(
         r"\varepsilon_i = (U/v_{t,i})^{1/n_i},\ n_i = "
         r"\frac{\ln(v_{t,i}/U_{mf,i})}{\ln(1/\varepsilon_0)},\quad H = "
-        r"H_0(1-\varepsilon_0)\sum_i\frac{x_i}{1-\varepsilon_i}"
+        r"H_0(1-\varepsilon_0)\sum_i\frac{x_i}{1-\varepsilon_i},\quad (v_{t,i}, U_{mf,i}) = F(d_i, "
+        r"\rho_p, \rho_f, \eta)"
     ),
     typical={
         "superficial_velocity": (0.005, 0.012),
@@ -285,6 +296,7 @@ class GradedBed(NamedTuple):
         "void_fraction_settled": (0.38, 0.45),
         "class_sizes": (5e-4, 1.5e-3),
     },
+    symbols={"class_sizes": "d_i", "class_fractions": "x_i"},
 )
 def graded_bed_expansion(
     class_sizes: Annotated[Length, Series("classes")],

@@ -17,6 +17,7 @@ from granum.core.kinds import (
     Speed,
 )
 from granum.numerics import safe_power
+from granum.particles.definitions import reynolds_of
 
 SURFACE = {
     "bubble_diameter": (0.03, 0.3),
@@ -111,9 +112,10 @@ def disengaging_height_smolders(
 
 @formula(
     source="geldart1979; kunii1991, ch. 7",
-    equation=r"K^*_\infty = 23.7\,\rho_g U\,e^{-5.4\,v_t/U}",
+    equation=r"K^*_\infty = 23.7\,\rho_f U\,e^{-5.4\,v_t/U}",
     fitted={"superficial_velocity": (0.6, 3.0)},
     typical=ESCAPE,
+    symbols={"elutriation_flux": r"K^*_\infty"},
 )
 def elutriation_flux_geldart(
     superficial_velocity: Speed, terminal_velocity: Speed, fluid_density: Density
@@ -131,9 +133,10 @@ def elutriation_flux_geldart(
 
 @formula(
     source="tasirin1998; kramp2010",
-    equation=r"K^*_\infty = 14.5\,\rho_g U^{2.5}\,e^{-5.4\,v_t/U}",
+    equation=r"K^*_\infty = 14.5\,\rho_f U^{2.5}\,e^{-5.4\,v_t/U}",
     fitted={"superficial_velocity": (0.2, 0.8)},
     typical={**ESCAPE, "superficial_velocity": (0.4, 0.8)},
+    symbols={"elutriation_flux": r"K^*_\infty"},
 )
 def elutriation_flux_tasirin_geldart(
     superficial_velocity: Speed, terminal_velocity: Speed, fluid_density: Density
@@ -157,11 +160,12 @@ def elutriation_flux_tasirin_geldart(
 @formula(
     source="zenz1958; kunii1991, ch. 7",
     equation=(
-        r"\frac{K^*_\infty}{\rho_g U} = \begin{cases}1.26\times10^7 X^{1.88} & X < "
-        r"3\times10^{-4}\\ 4.31\times10^4 X^{1.18}\end{cases},\ X = \frac{U^2}{g d_p \rho_p^2}"
+        r"\frac{K^*_\infty}{\rho_f U} = \begin{cases}1.26\times10^7 X^{1.88} & X < 3\times10^{-4}\\ "
+        r"4.31\times10^4 X^{1.18}\end{cases},\ X = \frac{U^2}{g d_p \rho_p^2}"
     ),
     fitted={"particle_diameter": (4e-5, 2e-4)},
     typical={**ESCAPE, "particle_diameter": (4e-5, 1e-4)},
+    symbols={"elutriation_flux": r"K^*_\infty"},
 )
 def elutriation_flux_zenz_weil(
     superficial_velocity: Speed,
@@ -186,11 +190,13 @@ def elutriation_flux_zenz_weil(
 @formula(
     source="wen1960",
     equation=(
-        r"K^*_\infty = 1.52\times10^{-5}\rho_g (U-v_t)\left[\frac{(U-v_t)^2}{g "
-        r"d_p}\right]^{1/2}\mathrm{Re}_t^{0.725}\left(\frac{\rho_p-\rho_g}{\rho_g}\right)^{1.15}"
-    ),
+        r"K^*_\infty = 1.52\times10^{-5}\rho_f (U-v_t)\left[\frac{(U-v_t)^2}{g "
+        r"d_p}\right]^{1/2}\mathrm{Re}_t^{0.725}\left(\frac{\rho_p-\rho_f}{\rho_f}\right)^{1.15}"
+    )
+    + reynolds_of("v_t", "t"),
     fitted={"particle_diameter": (4e-5, 2.7e-4)},
     typical={**ESCAPE, "particle_diameter": (4e-5, 1e-4)},
+    symbols={"elutriation_flux": r"K^*_\infty"},
 )
 def elutriation_flux_wen_hashinger(
     superficial_velocity: Speed,
@@ -243,8 +249,9 @@ def elutriation_flux_wen_hashinger(
 
 @formula(
     source="lin1980",
-    equation=r"K^*_\infty = 9.43\times10^{-4}\,\rho_g U\left(\frac{U^2}{g d_p}\right)^{1.65}",
-    typical=ESCAPE,
+    equation=r"K^*_\infty = 9.43\times10^{-4}\,\rho_f U\left(\frac{U^2}{g d_p}\right)^{1.65}",
+    typical={**ESCAPE, "superficial_velocity": (0.1, 0.3)},
+    symbols={"elutriation_flux": r"K^*_\infty"},
 )
 def elutriation_flux_lin(
     superficial_velocity: Speed,
@@ -271,6 +278,7 @@ def elutriation_flux_lin(
     equation=r"K^*_\infty = 33\,(1 - v_t/U)^2",
     fitted={"superficial_velocity": (0.9, 3.7)},
     typical={**ESCAPE, "superficial_velocity": (0.9, 2.0)},
+    symbols={"elutriation_flux": r"K^*_\infty"},
 )
 def elutriation_flux_colakyan_levenspiel(superficial_velocity: Speed, terminal_velocity: Speed) -> MassFlux:
     """Elutriation rate constant of coarse particles by Colakyan and Levenspiel; none below the terminal
@@ -286,12 +294,14 @@ def elutriation_flux_colakyan_levenspiel(superficial_velocity: Speed, terminal_v
 
 @formula(
     source="kunii1991, ch. 7",
+    title="Entrained solids flux along the freeboard",
     equation=r"G_s = G_s^* + (G_{s,0} - G_s^*)\,e^{-a z}",
     typical={
         "entrainment_flux_carried": (0.1, 2.0),
         "entrainment_flux_ejected": (3.0, 10.0),
         "height": (0.5, 4.0),
     },
+    symbols={"entrainment_flux_carried": "G_s^*", "entrainment_flux_ejected": "G_{s,0}", "height": "z"},
 )
 def entrainment_flux_freeboard(
     entrainment_flux_carried: MassFlux,

@@ -25,6 +25,7 @@ from granum.core.kinds import (
     VoidFraction,
 )
 from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes
+from granum.particles.definitions import ARCHIMEDES, velocity_of
 
 GAS = {**TYPICAL, "thermal_conductivity": (0.02, 0.06), "specific_heat_capacity": (700.0, 1200.0)}
 
@@ -35,6 +36,7 @@ GAS = {**TYPICAL, "thermal_conductivity": (0.02, 0.06), "specific_heat_capacity"
     output="heat_transfer_coefficient",
     fitted={"particle_diameter": (4e-5, 5e-4), "particle_density": (1400.0, 4000.0)},
     typical={**GAS, "particle_diameter": (1e-4, 5e-4), "particle_density": (1500.0, 4000.0)},
+    symbols={"thermal_conductivity": r"\lambda_g", "heat_transfer_coefficient": r"h_{\max}"},
 )
 def heat_transfer_coefficient_zabrodsky(
     particle_diameter: Length, particle_density: Density, thermal_conductivity: ThermalConductivity
@@ -54,9 +56,13 @@ def heat_transfer_coefficient_zabrodsky(
 
 @formula(
     source="todes1965",
-    equation=r"\mathrm{Re}_{opt} = \frac{\mathrm{Ar}}{18 + 5.22\sqrt{\mathrm{Ar}}}",
+    title="Superficial velocity of best heat transfer",
+    equation=r"\mathrm{Re}_{opt} = \frac{\mathrm{Ar}}{18 + 5.22\sqrt{\mathrm{Ar}}}"
+    + velocity_of("U_{opt}", "opt")
+    + ARCHIMEDES,
     output="superficial_velocity",
     typical=GAS,
+    symbols={"superficial_velocity": "U_{opt}"},
 )
 def superficial_velocity_best_heat_transfer(
     particle_diameter: Length,
@@ -79,13 +85,15 @@ def superficial_velocity_best_heat_transfer(
 
 @formula(
     source="mickley1955",
-    equation=r"\bar h = 2\sqrt{\frac{\lambda_e \rho_p (1-\varepsilon) c_p}{\pi\,t}}",
+    title="Heat transfer coefficient by packets",
+    equation=r"\bar h = 2\sqrt{\frac{\lambda_e \rho_p (1-\varepsilon) c_p}{\pi\,t_R}}",
     output="heat_transfer_coefficient",
     typical={
         "thermal_conductivity": (0.1, 0.5),
         "specific_heat_capacity": (700.0, 1200.0),
         "contact_time": (0.1, 2.0),
     },
+    symbols={"thermal_conductivity": r"\lambda_e", "heat_transfer_coefficient": r"\bar h"},
 )
 def heat_transfer_coefficient_packet(
     thermal_conductivity: ThermalConductivity,
@@ -143,6 +151,7 @@ def nusselt_number_gunn(
     source="kothari1967; kunii1991, ch. 11",
     equation=r"\mathrm{Nu}_{bed} = 0.03\,\mathrm{Re}^{1.3}",
     fitted={"reynolds": (0.1, 50.0)},
+    symbols={"nusselt_number": r"\mathrm{Nu}_{bed}"},
 )
 def nusselt_number_kothari(reynolds: PositiveNumber) -> PositiveNumber:
     """Nusselt number between gas and particles of a whole bubbling bed in plug flow, by Kothari, far below
@@ -168,7 +177,7 @@ class Distributor(NamedTuple):
 @formula(
     source="kunii1991, ch. 4",
     equation=(
-        r"\Delta p_d = r\,\Delta p_b,\ u_{or} = C_d\sqrt{2\Delta p_d/\rho_g},\ N_{or} = \frac{4U}{\pi "
+        r"\Delta p_d = r\,\Delta p_b,\ u_{or} = C_d\sqrt{2\Delta p_d/\rho_f},\ N_{or} = \frac{4U}{\pi "
         r"d_{or}^2 u_{or}}"
     ),
     fitted={"distributor_ratio": (0.2, 0.4), "open_area_fraction": (0.0, 0.1)},
@@ -179,6 +188,7 @@ class Distributor(NamedTuple):
         "distributor_ratio": (0.2, 0.4),
         "fluid_density": (0.4, 5.0),
     },
+    symbols={"pressure_drop": r"\Delta p_b"},
 )
 def distributor_design(
     pressure_drop: PressureDrop,

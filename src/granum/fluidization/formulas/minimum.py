@@ -12,6 +12,7 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.formulas import Formula
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, Speed
 from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes, larger_root
+from granum.particles.definitions import ARCHIMEDES, velocity_of
 
 
 def _two_constants(
@@ -55,6 +56,7 @@ def _two_constants(
     True
     """  # noqa: E501
     equation = rf"\mathrm{{Re}}_{{mf}} = \sqrt{{{first}^2 + {second}\,\mathrm{{Ar}}}} - {first}"
+    equation += velocity_of("U_{mf}", "mf") + ARCHIMEDES
     return formula(source=source, equation=equation, fitted={"reynolds": reynolds}, typical=TYPICAL)(law)
 
 

@@ -8,6 +8,7 @@ from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, Speed, Sphericity, VoidFraction
 from granum.fluidization.formulas.buoyancy import FINE, TYPICAL, archimedes, excess, larger_root
+from granum.particles.definitions import ARCHIMEDES, velocity_of
 
 USUAL_VOID_FRACTION = 0.4
 
@@ -15,9 +16,11 @@ USUAL_VOID_FRACTION = 0.4
 @formula(
     source="ergun1952; kunii1991, ch. 3, eq. 18; bird2002, section 6.4",
     equation=(
-        r"\frac{1.75}{\varepsilon^3\psi}\mathrm{Re}^2 + "
-        r"\frac{150(1-\varepsilon)}{\varepsilon^3\psi^2}\mathrm{Re} = \mathrm{Ar}"
-    ),
+        r"\frac{1.75}{\varepsilon^3\psi}\mathrm{Re}_{mf}^2 + "
+        r"\frac{150(1-\varepsilon)}{\varepsilon^3\psi^2}\mathrm{Re}_{mf} = \mathrm{Ar}"
+    )
+    + velocity_of("U_{mf}", "mf")
+    + ARCHIMEDES,
     fitted={"reynolds_bed": (0.0, 2300.0)},
     typical=TYPICAL,
 )

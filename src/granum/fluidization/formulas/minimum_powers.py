@@ -10,11 +10,15 @@ from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Fraction, Length, Speed
 from granum.fluidization.formulas.buoyancy import FINE, TYPICAL, excess
+from granum.particles.definitions import GALILEO, velocity_of
 
 
 @formula(
     source="leva1959",
-    equation=r"G_{mf} = 688\,d_p^{1.82}\,\frac{[\rho_f(\rho_p - \rho_f)]^{0.94}}{\eta^{0.88}}",
+    equation=(
+        r"\rho_f\,U_{mf} = G_{mf} = 688\,d_p^{1.82}\,\frac{[\rho_f(\rho_p - "
+        r"\rho_f)]^{0.94}}{\eta^{0.88}}"
+    ),
     fitted={"reynolds": (0.0, 10.0)},
     typical=FINE,
 )
@@ -70,7 +74,9 @@ def minimum_fluidization_velocity_baeyens_geldart(
 
 @formula(
     source="riba1978",
-    equation=r"\mathrm{Re}_{mf} = 0.0154\,\mathrm{Ga}^{0.66} M_v^{0.70},\ M_v = (\rho_p - \rho_f)/\rho_f",
+    equation=r"\mathrm{Re}_{mf} = 0.0154\,\mathrm{Ga}^{0.66} M_v^{0.70},\ M_v = (\rho_p - \rho_f)/\rho_f"
+    + velocity_of("U_{mf}", "mf")
+    + GALILEO,
     fitted={"reynolds": (10.0, 1000.0)},
     typical={"particle_diameter": (1e-3, 5e-3)},
 )

@@ -10,6 +10,7 @@ from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, PositiveNumber, Ratio, Speed
 from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes, excess
+from granum.particles.definitions import ARCHIMEDES, reynolds_of, velocity_of
 
 WIDE = {**TYPICAL, "superficial_velocity": (0.02, 2.0)}
 
@@ -23,7 +24,9 @@ class GraceCoordinates(NamedTuple):
 
 @formula(
     source="grace1986",
-    equation=r"d^* = \mathrm{Ar}^{1/3},\quad u^* = \mathrm{Re}/\mathrm{Ar}^{1/3}",
+    equation=r"d^* = \mathrm{Ar}^{1/3},\quad u^* = \mathrm{Re}/\mathrm{Ar}^{1/3}"
+    + reynolds_of("U")
+    + ARCHIMEDES,
     typical=WIDE,
 )
 def grace_coordinates(
@@ -53,7 +56,7 @@ def grace_coordinates(
 
 @formula(
     source="bi1995",
-    equation=r"\mathrm{Re}_c = 1.24\,\mathrm{Ar}^{0.45}",
+    equation=r"\mathrm{Re}_c = 1.24\,\mathrm{Ar}^{0.45}" + velocity_of("U_c", "c") + ARCHIMEDES,
     fitted={"archimedes_number": (2.0, 1e8)},
     typical=TYPICAL,
 )
@@ -81,7 +84,7 @@ def turbulent_onset_velocity_bi_grace(
 
 @formula(
     source="bi1995",
-    equation=r"\mathrm{Re}_{se} = 1.53\,\mathrm{Ar}^{0.5}",
+    equation=r"\mathrm{Re}_{se} = 1.53\,\mathrm{Ar}^{0.5}" + velocity_of("U_{se}", "se") + ARCHIMEDES,
     fitted={"archimedes_number": (2.0, 4e6)},
     typical=TYPICAL,
 )
@@ -187,6 +190,7 @@ def slug_rise_velocity(
         "height": (0.5, 3.0),
         "diameter": (0.3, 1.0),
     },
+    symbols={"height": "H_{mf}"},
 )
 def bubbling_number(
     minimum_fluidization_velocity: Speed,

@@ -57,9 +57,10 @@ class TwoPhaseBed(NamedTuple):
 
 @formula(
     source="davidson1963; kunii1991, ch. 6 and 10; darton1977",
-    equation=r"X = \int_0^H \frac{K_{be}}{u_b}\,dz,\quad B = \left(1 - \frac{U_{mf}}{U}\right)e^{-X}",
+    equation=r"X = \int_0^H \frac{K_{be}(D)}{u_b}\,dz,\quad B = \left(1 - \frac{U_{mf}}{U}\right)e^{-X}",
     fitted={"bubble_ratio": (0.0, 0.6)},
     typical=BED,
+    symbols={"bypass_fraction": "B", "transfer_units": "X"},
 )
 def two_phase_bed(
     superficial_velocity: Speed,
@@ -127,7 +128,10 @@ def two_phase_bed(
 
 
 @formula(
-    source="davidson1963", equation=r"\frac{c}{c_0} = B + \frac{(1-B)^2}{1 - B + k H_{mf}/U}", typical=BED
+    source="davidson1963",
+    equation=r"\frac{c}{c_0} = B + \frac{(1-B)^2}{1 - B + k H_{mf}/U}",
+    typical={**BED, "rate_constant": (0.5, 5.0)},
+    symbols={"bypass_fraction": "B", "height": "H_{mf}"},
 )
 def unconverted_fraction_davidson_harrison(
     bypass_fraction: Fraction, rate_constant: Frequency, height: Length, superficial_velocity: Speed

@@ -96,6 +96,14 @@ def after(pair: Any, w: Any, h: Any, P: Any) -> Process:
     },
     title="Mixing of two humid gases",
     output="humid_process",
+    symbols={
+        "dry_gas_flow_first": "G_1",
+        "humidity_ratio_first": "w_1",
+        "enthalpy_first": "h_1",
+        "dry_gas_flow_second": "G_2",
+        "humidity_ratio_second": "w_2",
+        "enthalpy_second": "h_2",
+    },
 )
 def mixing(
     dry_gas_flow_first: MassFlow,
@@ -125,11 +133,20 @@ def mixing(
 
 @formula(
     source=_SOURCE,
-    equation=r"\dot Q = G\,(h_2 - h_1),\qquad w_2 = w_1",
+    equation=r"\dot Q = G\,(h_2 - h_1),\qquad w_2 = w_1,\qquad h_1 = h(T_1, w_1),\ h_2 = h(T_2, w_1)",
     title="Heating of a humid gas",
     output="humid_process",
     fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
     typical={**_WARM, "temperature": (285.0, 300.0), "temperature_outlet": (320.0, 400.0)},
+    symbols={
+        "temperature": "T_1",
+        "humidity_ratio": "w_1",
+        "=temperature": "T_2",
+        "=humidity_ratio": "w_2",
+        "=enthalpy": "h_2",
+        "=relative_humidity": r"\varphi_2",
+        "temperature_outlet": "T_2",
+    },
 )
 def heating(
     temperature: Temperature,
@@ -157,11 +174,19 @@ def heating(
 
 @formula(
     source=_SOURCE,
-    equation=r"h_2 = h_1 + \dot Q/G,\qquad w_2 = w_1",
+    equation=r"h_2 = h_1 + \dot Q/G,\qquad w_2 = w_1,\quad h_1 = h(T_1, w_1)",
     title="Heating of a humid gas by a duty",
     output="humid_process",
     fitted=RANGE,
     typical={**_WARM, "heat_duty": (1e4, 5e4)},
+    symbols={
+        "temperature": "T_1",
+        "humidity_ratio": "w_1",
+        "=temperature": "T_2",
+        "=humidity_ratio": "w_2",
+        "=enthalpy": "h_2",
+        "=relative_humidity": r"\varphi_2",
+    },
 )
 def heating_by_duty(
     temperature: Temperature,
@@ -186,11 +211,23 @@ def heating_by_duty(
 
 @formula(
     source=_SOURCE,
-    equation=r"\dot Q = G\left[h_2 - h_1 + (w_1-w_2) h_l(T_2)\right],\quad w_2 = \min(w_1, w_s(T_2))",
+    equation=(
+        r"\dot Q = G\left[h_2 - h_1 + (w_1-w_2) h_l(T_2)\right],\quad w_2 = \min(w_1, w_s(T_2)),\quad "
+        r"h_1 = h(T_1, w_1)"
+    ),
     title="Cooling with condensation",
     output="humid_process",
     fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
     typical={**_WARM, "temperature_outlet": (276.0, 282.0)},
+    symbols={
+        "temperature": "T_1",
+        "humidity_ratio": "w_1",
+        "=temperature": "T_2",
+        "=humidity_ratio": "w_2",
+        "=enthalpy": "h_2",
+        "=relative_humidity": r"\varphi_2",
+        "temperature_outlet": "T_2",
+    },
 )
 def cooling(
     temperature: Temperature,
@@ -224,11 +261,22 @@ def cooling(
 
 @formula(
     source="ashrae2017, ch. 1; mcquiston2005",
-    equation=r"w_2 = \mathrm{BF}\,w_1 + (1-\mathrm{BF})\,\min(w_1, w_s(T_b))",
+    equation=(
+        r"w_2 = \mathrm{BF}\,w_1 + (1-\mathrm{BF})\,\min(w_1, w_s(T_b)),\quad h_2 = \mathrm{BF}\,h(T_1, "
+        r"w_1) + (1-\mathrm{BF})\,h(T_b, w_s)"
+    ),
     title="Dehumidifying coil with bypass",
     output="humid_process",
     fitted={**RANGE, "coil_temperature": RANGE["temperature"]},
     typical={**_WARM, "coil_temperature": (276.0, 282.0)},
+    symbols={
+        "temperature": "T_1",
+        "humidity_ratio": "w_1",
+        "=temperature": "T_2",
+        "=humidity_ratio": "w_2",
+        "=enthalpy": "h_2",
+        "=relative_humidity": r"\varphi_2",
+    },
 )
 def dehumidifying(
     temperature: Temperature,
@@ -268,11 +316,19 @@ def dehumidifying(
 
 @formula(
     source=_SOURCE,
-    equation=r"w_2 = w_1 + \dot m_i/G,\quad h_2 = h_1 + h_i\,\dot m_i/G",
+    equation=r"w_2 = w_1 + \dot m_i/G,\quad h_2 = h_1 + h_i\,\dot m_i/G,\quad h_1 = h(T_1, w_1)",
     title="Injection of water or steam",
     output="humid_process",
     fitted=RANGE,
     typical=_WARM,
+    symbols={
+        "temperature": "T_1",
+        "humidity_ratio": "w_1",
+        "=temperature": "T_2",
+        "=humidity_ratio": "w_2",
+        "=enthalpy": "h_2",
+        "=relative_humidity": r"\varphi_2",
+    },
 )
 def injection(
     temperature: Temperature,
@@ -300,11 +356,20 @@ def injection(
 
 @formula(
     source=_SOURCE,
-    equation=r"h_2 = h_1 + (w_2 - w_1)\,h_l(T_{as})",
+    equation=r"h_2 = h_1 + (w_2 - w_1)\,h_l(T_{as}),\quad h_1 = h(T_1, w_1)",
     title="Adiabatic drying",
     output="humid_process",
     fitted=RANGE,
     typical={**_WARM, "humidity_ratio": (0.005, 0.01), "humidity_ratio_outlet": (0.011, 0.014)},
+    symbols={
+        "temperature": "T_1",
+        "humidity_ratio": "w_1",
+        "=temperature": "T_2",
+        "=humidity_ratio": "w_2",
+        "=enthalpy": "h_2",
+        "=relative_humidity": r"\varphi_2",
+        "humidity_ratio_outlet": "w_2",
+    },
 )
 def adiabatic_drying(
     temperature: Temperature,
@@ -329,7 +394,7 @@ def adiabatic_drying(
 
 @formula(
     source=_SOURCE,
-    equation=r"h_2 = h_1 + \Delta\,(w_2 - w_1)",
+    equation=r"h_2 = h_1 + \Delta\,(w_2 - w_1),\quad h_1 = h(T_1, w_1)",
     title="Real drying",
     output="humid_process",
     fitted=RANGE,
@@ -338,6 +403,15 @@ def adiabatic_drying(
         "humidity_ratio": (0.005, 0.01),
         "humidity_ratio_outlet": (0.011, 0.014),
         "drying_slope": (-4e5, -2e5),
+    },
+    symbols={
+        "temperature": "T_1",
+        "humidity_ratio": "w_1",
+        "=temperature": "T_2",
+        "=humidity_ratio": "w_2",
+        "=enthalpy": "h_2",
+        "=relative_humidity": r"\varphi_2",
+        "humidity_ratio_outlet": "w_2",
     },
 )
 def real_drying(
@@ -379,6 +453,12 @@ class Recirculation(NamedTuple):
     title="Recirculation of a dryer's gas",
     output="humid_process",
     typical={"humidity_ratio_fresh": (0.005, 0.01)},
+    symbols={
+        "humidity_ratio_fresh": "w_0",
+        "humidity_ratio_inlet": "w_1",
+        "humidity_ratio_outlet": "w_2",
+        "dry_gas_flow_fresh": "G_0",
+    },
 )
 def recirculation(
     humidity_ratio_fresh: HumidityRatio,
@@ -411,8 +491,10 @@ class CombustionGas(NamedTuple):
 
 @formula(
     source="keey1978",
-    equation=r"m_{a} = n\,\frac{x_C/12.011 + x_H/4.032 + x_S/32.06 - x_O/31.998}{0.2095}\,28.966,\quad "
-    r"h = \frac{m_a h_a + \mathrm{PCI} + L_0\,(9x_H + x_W)}{m_g}",
+    equation=(
+        r"m_{a} = n\,\frac{x_C/12.011 + x_H/4.032 + x_S/32.06 - x_O/31.998}{0.2095}\,28.966,\quad h = "
+        r"\frac{m_a h_a + \mathrm{PCI} + L_0\,(9x_H + x_W)}{m_g},\quad w = w(x_H, x_W),\ T = T(h, w)"
+    ),
     fitted={"excess_air_ratio": (4.0, inf)},
     typical={
         "temperature": (285.0, 300.0),
@@ -427,6 +509,13 @@ class CombustionGas(NamedTuple):
         "lower_heating_value": (4e7, 5e7),
     },
     title="Combustion gas for direct firing",
+    symbols={
+        "fuel_fraction_carbon": "x_C",
+        "fuel_fraction_hydrogen": "x_H",
+        "fuel_fraction_oxygen": "x_O",
+        "fuel_fraction_sulfur": "x_S",
+        "fuel_fraction_water": "x_W",
+    },
 )
 def combustion_gas(
     fuel_fraction_carbon: Fraction,
@@ -500,6 +589,12 @@ def combustion_gas(
         "specific_energy_added": (1e4, 5e4),
     },
     title="Drying slope from losses",
+    symbols={
+        "temperature_solid": "T_{s1}",
+        "specific_energy_solid": "q_s",
+        "specific_energy_loss": "q_{loss}",
+        "specific_energy_added": "q_{add}",
+    },
 )
 def drying_slope(
     temperature_solid: Temperature,

@@ -122,7 +122,11 @@ def humidity_ratio_saturated(
 
 
 @formula(
-    source=_SOURCE, equation=r"\varphi = p_v/p_s(T)", fitted=RANGE, typical=_WARM, title="Relative humidity"
+    source=_SOURCE,
+    equation=r"\varphi = p_v/p_s(T),\quad p_v = \frac{w\,p}{w + M_v/M_g}",
+    fitted=RANGE,
+    typical=_WARM,
+    title="Relative humidity",
 )
 def relative_humidity(
     temperature: Temperature,
@@ -141,7 +145,7 @@ def relative_humidity(
 
 @formula(
     source=_SOURCE,
-    equation=r"p_s(T_r) = p_v",
+    equation=r"T_r = T_s(p_v),\quad p_s(T_s) = p_v,\quad p_v = \frac{w\,p}{w + M_v/M_g}",
     fitted={"dew_point_temperature": RANGE["temperature"]},
     typical=_WARM,
     title="Dew or frost point",
@@ -191,6 +195,7 @@ def enthalpy(
     typical={**_WARM, "temperature": (283.15, 333.15)},
     output="enthalpy",
     title="Enthalpy of a humid gas, constant heat capacities",
+    symbols={"temperature": "t"},
 )
 def enthalpy_linear(
     temperature: Temperature,
@@ -247,7 +252,7 @@ def specific_volume(
 
 @formula(
     source=_SOURCE,
-    equation=r"\rho = \frac{1 + w}{v}",
+    equation=r"\rho_g = \frac{1 + w}{v},\quad v = v(T, w, p)",
     fitted=RANGE,
     typical=_WARM,
     output="gas_density",

@@ -48,7 +48,8 @@ def _mixed(first: Any, second: Any, y: Any, weights: tuple[Any, Any]) -> Any:
     ),
     equation=(
         r"\eta = \sum_i \frac{y_i\eta_i}{\sum_j y_j\phi_{ij}},\quad \phi_{ij} = "
-        r"\frac{[1+(\eta_i/\eta_j)^{1/2}(M_j/M_i)^{1/4}]^2}{[8(1+M_i/M_j)]^{1/2}}"
+        r"\frac{[1+(\eta_i/\eta_j)^{1/2}(M_j/M_i)^{1/4}]^2}{[8(1+M_i/M_j)]^{1/2}},\quad \eta_i = "
+        r"\eta_i(T),\ y_i = y_i(w)"
     ),
     fitted={"temperature": (273.15, 623.15)},
     typical={"temperature": (293.15, 393.15), "humidity_ratio": (0.005, 0.1), "pressure": (9e4, 2e5)},

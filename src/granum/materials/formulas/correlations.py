@@ -258,7 +258,7 @@ def correlation_vant_hoff(temperature: Temperature, coefficients: Coefficients) 
 
 @formula(
     source="mulero2012, eq. 2",
-    equation=r"y = \sum_i \sigma_i\,(1 - T/T_c)^{n_i}",
+    equation=r"y = \sum_{i=2,4,\ldots} c_i\,(1 - T/c_1)^{c_{i+1}}",
     title="Surface tension form of Mulero and Cachadiña",
     fitted={"reduced_temperature": (0.0, 1.0)},
 )

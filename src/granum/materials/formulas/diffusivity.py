@@ -34,6 +34,12 @@ _GAS = {
         "molar_mass_gas": (0.028, 0.044),
         "temperature": (280.0, 500.0),
     },
+    symbols={
+        "molar_mass_vapor": "M_1",
+        "diffusion_volume_vapor": "v_1",
+        "molar_mass_gas": "M_2",
+        "diffusion_volume_gas": "v_2",
+    },
 )
 def diffusivity_fuller(
     temperature: Temperature,
@@ -60,7 +66,7 @@ def diffusivity_fuller(
 
 @formula(
     source="marrero1972, table 13",
-    equation=r"D = 1.87\times10^{-10}\,\frac{T^{2.072}}{p}\ (\mathrm{m^2/s},\ p\ \mathrm{in\ atm})",
+    equation=r"D = 1.87\times10^{-10}\,\frac{T^{2.072}}{p}\ (\mathrm{m^2/s},\ p\text{ in }\mathrm{atm})",
     fitted={"temperature": (282.0, 450.0)},
 )
 def diffusivity_marrero_mason(

@@ -66,6 +66,7 @@ _TRANSPORT = {"temperature": (70.0, 2000.0)}
     fitted=_TRANSPORT,
     output="dynamic_viscosity",
     title="Viscosity of dry air (Lemmon–Jacobsen)",
+    symbols={"dynamic_viscosity": r"\eta_0"},
 )
 def air_viscosity(temperature: Temperature) -> DynamicViscosity:
     """Viscosity of dry air at low pressure, within 1 %; at 1 bar the density adds less than 0.1 %.
@@ -78,10 +79,14 @@ def air_viscosity(temperature: Temperature) -> DynamicViscosity:
 
 @formula(
     source="lemmon2004, eq. 5",
-    equation=r"\lambda_0 = N_1\eta_0 + N_2\tau^{t_2} + N_3\tau^{t_3}",
+    equation=(
+        r"\lambda_0 = N_1\eta_0 + N_2\tau^{t_2} + N_3\tau^{t_3},\quad \tau = \frac{132.6312\,\mathrm "
+        r"K}{T}"
+    ),
     fitted=_TRANSPORT,
     output="thermal_conductivity",
     title="Thermal conductivity of dry air (Lemmon–Jacobsen)",
+    symbols={"thermal_conductivity": r"\lambda_0"},
 )
 def air_conductivity(temperature: Temperature) -> ThermalConductivity:
     """Thermal conductivity of dry air at low pressure, within 2 %.
@@ -132,6 +137,7 @@ def air_heat_capacity(temperature: Temperature) -> HeatCapacity:
     fitted=_TRANSPORT,
     output="dynamic_viscosity",
     title="Viscosity of nitrogen (Lemmon–Jacobsen)",
+    symbols={"dynamic_viscosity": r"\eta_0"},
 )
 def nitrogen_viscosity(temperature: Temperature) -> DynamicViscosity:
     """Viscosity of nitrogen at low pressure, within 0.5 %.
@@ -144,10 +150,14 @@ def nitrogen_viscosity(temperature: Temperature) -> DynamicViscosity:
 
 @formula(
     source="lemmon2004, eq. 5",
-    equation=r"\lambda_0 = N_1\eta_0 + N_2\tau^{t_2} + N_3\tau^{t_3}",
+    equation=(
+        r"\lambda_0 = N_1\eta_0 + N_2\tau^{t_2} + N_3\tau^{t_3},\quad \tau = \frac{126.192\,\mathrm "
+        r"K}{T}"
+    ),
     fitted=_TRANSPORT,
     output="thermal_conductivity",
     title="Thermal conductivity of nitrogen (Lemmon–Jacobsen)",
+    symbols={"thermal_conductivity": r"\lambda_0"},
 )
 def nitrogen_conductivity(temperature: Temperature) -> ThermalConductivity:
     """Thermal conductivity of nitrogen at low pressure, within 2 %.

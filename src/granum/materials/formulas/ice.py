@@ -12,7 +12,7 @@ _TRIPLE_TEMPERATURE, _TRIPLE_PRESSURE = 273.16, 611.657
 
 @formula(
     source="iapws2011melting, eq. 6",
-    equation=r"\ln\frac{p}{p_t} = \theta^{-1}\sum_{i=1}^{3} a_i\theta^{b_i},\quad \theta = T/T_t",
+    equation=r"\ln\frac{p_v}{p_t} = \theta^{-1}\sum_{i=1}^{3} a_i\theta^{b_i},\quad \theta = T/T_t",
     fitted={"temperature": (50.0, 273.16)},
     typical={"temperature": (200.0, 270.0)},
     output="vapor_pressure",
@@ -33,7 +33,7 @@ def ice_vapor_pressure(temperature: Temperature) -> Pressure:
 
 @formula(
     source="iapws2011melting, eq. 1",
-    equation=r"\frac{p}{p_t} = 1 + \sum_{i=1}^{3} a_i\left(1 - \theta^{b_i}\right)",
+    equation=r"p = p_t\left[1 + \sum_{i=1}^{3} a_i\left(1 - \theta^{b_i}\right)\right],\quad \theta = T/T_t",
     fitted={"temperature": (251.165, 273.16)},
     typical={"temperature": (255.0, 272.0)},
     output="pressure",

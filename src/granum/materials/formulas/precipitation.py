@@ -66,6 +66,7 @@ def salt_molality_from_product(
     ),
     output="deprotonated_fraction",
     typical={"ph_value": (5.0, 11.0)},
+    symbols={"deprotonated_fraction": r"\alpha_n"},
 )
 def deprotonated_fraction(ph_value: Number, acid_exponents: Annotated[Number, Series("steps")]) -> Fraction:
     """Share of a dissolved weak acid that is there as its last anion, from pH and the exponents pK of its

@@ -209,8 +209,8 @@ def saturated_solution(temperature: Temperature, system: str = "potassium nitrat
     mass of anhydrous solute. The sources of each system stand in its file;
     ``granum.materials.names("solute")`` lists the systems.
 
-    >>> round(saturated_solution("20 degC").liquid_density / 1e3, 2)
-    1.16
+    >>> round(saturated_solution("20 degC", "potassium chloride").liquid_density / 1e3, 2)
+    1.17
     """
     s = session().solute(system)
     T = temperature
@@ -273,7 +273,7 @@ class SaltSaturation(NamedTuple):
     source="davies1962, ch. 3; haynes2014, sec. 5",
     equation=(
         r"\mathrm{SI} = \log_{10}\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}},\quad S = "
-        r"10^{\mathrm{SI}/(p+q)}"
+        r"10^{\mathrm{SI}/(p+q)},\quad \gamma_i = \gamma_i(I)"
     ),
     typical={"cation_molality": (1e-5, 1e-2), "anion_molality": (1e-5, 1e-2), "ionic_strength": (1e-3, 0.3)},
     fitted={"ionic_strength": (0.0, 0.5)},

@@ -31,8 +31,8 @@ def _solute(mass_fraction: Any) -> Any:
 @formula(
     source="laliberte2004, eq. 5 and 9; laliberte2009, table 2",
     equation=(
-        r"\frac1\rho = \frac{1-w}{\rho_w} + w\,\frac{w + c_2 + c_3 t}{(c_0 w + c_1)\,e^{10^{-6}(t + "
-        r"c_4)^2}}"
+        r"\rho_l = \left[\frac{1-x}{\rho_w} + x\,\frac{x + c_3 + c_4 t}{(c_1 x + c_2)\,e^{10^{-6}(t + "
+        r"c_5)^2}}\right]^{-1},\quad t = T - 273.15\,\mathrm K"
     ),
     output="liquid_density",
     title="Density of an aqueous solution (Laliberté–Cooper)",
@@ -65,8 +65,8 @@ def liquid_density_laliberte(
 @formula(
     source="laliberte2007, eq. 8 and 12; laliberte2009, table 3",
     equation=(
-        r"\eta = \eta_w^{1-w}\,\eta_s^{w},\quad \eta_s = \frac{\exp\left(\frac{v_1 w^{v_2} + v_3}{v_4 t + "
-        r"1}\right)}{v_5 w^{v_6} + 1}\ \mathrm{mPa\,s}"
+        r"\eta = \eta_w^{1-x}\,\eta_s^{x},\quad \eta_s = \frac{\exp\left(\frac{c_1 x^{c_2} + c_3}{c_4 t "
+        r"+ 1}\right)}{c_5 x^{c_6} + 1}\ \mathrm{mPa\,s},\quad t = T - 273.15\,\mathrm K"
     ),
     output="dynamic_viscosity",
     title="Viscosity of an aqueous solution (Laliberté)",
@@ -102,8 +102,8 @@ def dynamic_viscosity_laliberte(
 @formula(
     source="laliberte2009, eq. 8–10, table 4",
     equation=(
-        r"c_p = (1-w)\,c_{p,w} + w\left[a_1 e^{\alpha} + a_5 w^{a_6}\right],\quad \alpha = a_2 t + a_3 "
-        r"e^{0.01 t} + a_4 w"
+        r"c_p = (1-x)\,c_{p,w} + x\left[c_1 e^{\alpha} + c_5 x^{c_6}\right],\quad \alpha = c_2 t + c_3 "
+        r"e^{0.01 t} + c_4 x,\quad t = T - 273.15\,\mathrm K"
     ),
     output="specific_heat_capacity",
     title="Heat capacity of an aqueous solution (Laliberté)",

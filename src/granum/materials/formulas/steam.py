@@ -55,7 +55,10 @@ def _ideal_tau_tau(tau: Any) -> Any:
 
 @formula(
     source="iapwsif97, eq. 15, table 12",
-    equation=r"\rho = \frac{p}{R T\,\pi(\gamma^0_\pi + \gamma^r_\pi)}",
+    equation=(
+        r"\rho_g = \frac{p}{R T\,\pi(\gamma^0_\pi + \gamma^r_\pi)},\quad "
+        r"\pi = \frac{p}{1\,\mathrm{MPa}}"
+    ),
     fitted=_RANGE,
     typical=_TYPICAL,
     output="gas_density",
@@ -95,7 +98,10 @@ def steam_enthalpy(temperature: Temperature, pressure: Pressure = STANDARD_ATMOS
 
 @formula(
     source="iapwsif97, eq. 15, table 12",
-    equation=r"c_p = -R\tau^2(\gamma^0_{\tau\tau} + \gamma^r_{\tau\tau})",
+    equation=(
+        r"c_p = -R\tau^2(\gamma^0_{\tau\tau} + \gamma^r_{\tau\tau}),\quad \tau = \frac{540\,\mathrm "
+        r"K}{T}"
+    ),
     fitted=_RANGE,
     typical=_TYPICAL,
     output="specific_heat_capacity",
@@ -115,7 +121,7 @@ def steam_heat_capacity(temperature: Temperature, pressure: Pressure = STANDARD_
 
 @formula(
     source="iapwsif97, eq. 16",
-    equation=r"c_p^0 = -R\tau^2\gamma^0_{\tau\tau}",
+    equation=r"c_p^0 = -R\tau^2\gamma^0_{\tau\tau},\quad \tau = \frac{540\,\mathrm K}{T}",
     fitted={"temperature": (273.15, 1073.15)},
     typical=_TYPICAL,
     output="specific_heat_capacity",

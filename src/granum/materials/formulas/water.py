@@ -73,7 +73,10 @@ def water_vapor_pressure(temperature: Temperature) -> Pressure:
 
 @formula(
     source="iapwsif97, eq. 31",
-    equation=r"T_s = \tfrac12\left[n_{10}+D-\left((n_{10}+D)^2-4(n_9+n_{10}D)\right)^{1/2}\right]",
+    equation=(
+        r"T_b = \tfrac12\left[n_{10}+D-\left((n_{10}+D)^2-4(n_9+n_{10}D)\right)^{1/2}\right],\quad D = "
+        r"D(p)"
+    ),
     fitted={"pressure": (611.213, 22.064e6)},
     typical={"pressure": (1e3, 1e6)},
     output="boiling_temperature",
@@ -116,7 +119,7 @@ _RANGE_1 = {"temperature": (273.15, 623.15), "pressure": (0.0, 100e6)}
 
 @formula(
     source="iapwsif97, eq. 7, table 3",
-    equation=r"\rho = \frac{p}{R T\,\pi\gamma_\pi}",
+    equation=r"\rho_l = \frac{p}{R T\,\pi\gamma_\pi},\quad \pi = \frac{p}{16.53\,\mathrm{MPa}}",
     fitted=_RANGE_1,
     output="liquid_density",
     title="Density of liquid water (IAPWS-IF97)",
@@ -154,7 +157,7 @@ def water_enthalpy(temperature: Temperature, pressure: Pressure = STANDARD_ATMOS
 
 @formula(
     source="iapwsif97, eq. 7, table 3",
-    equation=r"c_p = -R\,\tau^2\gamma_{\tau\tau}",
+    equation=r"c_p = -R\,\tau^2\gamma_{\tau\tau},\quad \tau = \frac{1386\,\mathrm K}{T}",
     fitted=_RANGE_1,
     output="specific_heat_capacity",
     title="Heat capacity of liquid water (IAPWS-IF97)",

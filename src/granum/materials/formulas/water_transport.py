@@ -63,8 +63,9 @@ def _dilute_conductivity(T: Any) -> Any:
 @formula(
     source="iapws2008viscosity, eq. 10–12",
     equation=(
-        r"\bar\eta = \bar\eta_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar T}-1\right)^i\sum_j "
-        r"H_{ij}(\bar\rho-1)^j\right]"
+        r"\eta = \eta_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar T}-1\right)^i\sum_j "
+        r"H_{ij}(\bar\rho-1)^j\right],\quad \bar T = \frac{T}{647.096\,\mathrm K},\ \bar\rho = "
+        r"\frac{\rho}{322\,\mathrm{kg/m^3}}"
     ),
     fitted=_RANGE,
     title="Viscosity of water or steam at a density (IAPWS 2008)",
@@ -87,8 +88,9 @@ def dynamic_viscosity_iapws(temperature: Temperature, density: Concentration) ->
 @formula(
     source="iapws2011conductivity, eq. 15–17",
     equation=(
-        r"\bar\lambda = \bar\lambda_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar "
-        r"T}-1\right)^i\sum_j L_{ij}(\bar\rho-1)^j\right]"
+        r"\lambda = \lambda_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar T}-1\right)^i\sum_j "
+        r"L_{ij}(\bar\rho-1)^j\right],\quad \bar T = \frac{T}{647.096\,\mathrm K},\ \bar\rho = "
+        r"\frac{\rho}{322\,\mathrm{kg/m^3}}"
     ),
     fitted=_RANGE,
     title="Thermal conductivity of water or steam at a density (IAPWS 2011)",
@@ -142,7 +144,10 @@ def water_conductivity(temperature: Temperature) -> ThermalConductivity:
 
 @formula(
     source="iapws2008viscosity, eq. 11",
-    equation=r"\bar\eta_0 = \frac{100\sqrt{\bar T}}{\sum_i H_i/\bar T^i}",
+    equation=(
+        r"\eta = \frac{100\sqrt{\bar T}}{\sum_i H_i/\bar T^i}\ \mathrm{\mu Pa\,s},\quad \bar T = "
+        r"\frac{T}{647.096\,\mathrm K}"
+    ),
     fitted=_RANGE,
     typical={"temperature": (280.0, 600.0)},
     output="dynamic_viscosity",
@@ -159,7 +164,10 @@ def steam_viscosity(temperature: Temperature) -> DynamicViscosity:
 
 @formula(
     source="iapws2011conductivity, eq. 16",
-    equation=r"\bar\lambda_0 = \frac{\sqrt{\bar T}}{\sum_k L_k/\bar T^k}",
+    equation=(
+        r"\lambda = \frac{\sqrt{\bar T}}{\sum_k L_k/\bar T^k}\ \mathrm{mW\,m^{-1}K^{-1}},\quad \bar T = "
+        r"\frac{T}{647.096\,\mathrm K}"
+    ),
     fitted=_RANGE,
     typical={"temperature": (280.0, 600.0)},
     output="thermal_conductivity",

@@ -46,7 +46,7 @@ def hadamard_factor(
 
 @formula(
     source="hadamard1911; rybczynski1911",
-    equation=r"v_t = \frac{g(\rho_p-\rho_f)d_p^2}{18\eta}\,H",
+    equation=r"v_t = \frac{g(\rho_p-\rho_f)d_p^2}{18\eta}\,H,\quad H = H(\eta_D/\eta)",
     fitted={"reynolds": (0.0, 0.5)},
     typical={"particle_diameter": (1e-6, 1e-4), "dispersed_viscosity": (1e-5, 1e-1)},
 )
@@ -212,8 +212,13 @@ class GraceVelocity(NamedTuple):
 
 @formula(
     source="grace1976; clift1978, eq. 7-3 to 7-7",
-    equation=r"\mathrm{Re} = \mathrm{M}^{-0.149}(J - 0.857),\ H = \tfrac43\mathrm{Eo}\,\mathrm{M}^{-0.149}\left(\frac{\eta}{\eta_w}\right)^{-0.14},"  # noqa: E501
-    r"\ J = 0.94H^{0.757}\ (H\le59.3),\ 3.42H^{0.441}",
+    equation=(
+        r"\mathrm{Re} = \mathrm{M}^{-0.149}(J - 0.857),\ H = "
+        r"\tfrac43\mathrm{Eo}\,\mathrm{M}^{-0.149}\left(\frac{\eta}{\eta_w}\right)^{-0.14},\ J = "
+        r"0.94H^{0.757}\ (H\le59.3),\ 3.42H^{0.441},\quad \mathrm{Eo} = \frac{g\,|\rho_p - "
+        r"\rho_f|\,d_p^2}{\sigma},\ \mathrm{M} = \frac{g\,\eta^4\,|\rho_p - "
+        r"\rho_f|}{\rho_f^2\,\sigma^3},\quad v_t = \frac{\mathrm{Re}\,\eta}{\rho_f\,d_p}"
+    ),
     fitted={
         "grace_group": (2.0, 1e4),
         "eotvos_number": (0.0, 40.0),

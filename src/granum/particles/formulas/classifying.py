@@ -25,6 +25,7 @@ TYPICAL = {
     source="wills2016, ch. 9",
     equation=r"\frac{d_l}{d_h} = \left(\frac{\rho_h - \rho_f}{\rho_l - \rho_f}\right)^{n}",
     typical=TYPICAL,
+    symbols={"particle_density_heavy": r"\rho_h", "particle_density_light": r"\rho_l"},
 )
 def settling_ratio(
     particle_density_heavy: Density,
@@ -63,8 +64,10 @@ def settling_ratio(
 
 @formula(
     source="richardson2002, ch. 1",
+    title="Fluid density for equal settling",
     equation=r"\rho_f = \frac{r\rho_l - \rho_h}{r - 1},\quad r = (d_l/d_h)^{1/n}",
     typical=TYPICAL | {"settling_ratio": (3.0, 6.0)},
+    symbols={"particle_density_heavy": r"\rho_h", "particle_density_light": r"\rho_l"},
 )
 def fluid_density_equal_settling(
     settling_ratio: Annotated[PositiveNumber, Within(1.0)],

@@ -118,6 +118,7 @@ def diameter_criterion(
 
 @formula(
     source="clift1978, chapter 5",
+    title="Reynolds number from the velocity criterion",
     equation=r"C_D(\mathrm{Re})\,\mathrm{Re}^2 = X",
     typical={"velocity_criterion": (1e-2, 1e6)},
 )
@@ -140,6 +141,7 @@ def reynolds_number_from_velocity_criterion(
 
 @formula(
     source="clift1978, chapter 5",
+    title="Reynolds number from the diameter criterion",
     equation=r"\frac{\mathrm{Re}}{C_D(\mathrm{Re})} = Y",
     typical={"diameter_criterion": (1e-4, 1e4)},
 )
@@ -174,9 +176,12 @@ class FallByRegime(NamedTuple):
 
 @formula(
     source="stokes1851; allen1900; newton1687; perry2008, section 6",
+    title="Terminal velocity by regime",
     equation=(
-        r"\mathrm{Re} = \frac{X}{24}\ (X\le "
-        r"4.8),\ \left(\frac{X}{18.5}\right)^{1/1.4},\ \sqrt{\frac{X}{0.44}}\ (X\ge 110\,000)"
+        r"\mathrm{Re} = \frac{X}{24}\ (X\le 4.8),\ \left(\frac{X}{18.5}\right)^{1/1.4},\ "
+        r"\sqrt{\frac{X}{0.44}}\ (X\ge 110\,000),\quad X = C_D\,\mathrm{Re}^2 = "
+        r"\frac{4\,g\,d_p^3\,\rho_f\,|\rho_p - \rho_f|}{3\,\eta^2},\quad v_t = "
+        r"\frac{\mathrm{Re}\,\eta}{\rho_f\,d_p}"
     ),
     fitted={"reynolds_number": (0.0, 2e5)},
 )
@@ -221,7 +226,12 @@ class SizeByRegime(NamedTuple):
 
 @formula(
     source="stokes1851; allen1900; newton1687; perry2008, section 6",
-    equation=r"\mathrm{Re} = \sqrt{24Y}\ (Y\le 1.66\cdot10^{-3}),\ (18.5Y)^{1/1.6},\ 0.44Y\ (Y\ge 1136)",
+    title="Diameter from terminal velocity, by regime",
+    equation=(
+        r"\mathrm{Re} = \sqrt{24Y}\ (Y\le 1.66\cdot10^{-3}),\ (18.5Y)^{1/1.6},\ 0.44Y\ (Y\ge "
+        r"1136),\quad Y = \frac{3\,\rho_f^2 v^3}{4\,\eta\,g\,|\rho_p - \rho_f|},\quad d_p = "
+        r"\frac{\mathrm{Re}\,\eta}{\rho_f\,v}"
+    ),
     fitted={"reynolds_number": (0.0, 2e5)},
 )
 def terminal_diameter_by_regime(

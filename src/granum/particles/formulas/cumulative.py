@@ -21,6 +21,7 @@ _SPREAD = Annotated[PositiveNumber, Within(1.0000001)]
     source="rosin1933",
     equation=r"Q = 1 - \exp\left[-(x/x')^n\right]",
     typical={"particle_diameter": (1e-5, 1e-4)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_rosin_rammler(
     particle_diameter: Distance, size_modulus: Length, distribution_exponent: PositiveNumber
@@ -35,8 +36,10 @@ def cumulative_fraction_rosin_rammler(
 
 @formula(
     source="hatch1929",
+    title="Cumulative fraction of a log-normal law",
     equation=r"Q = \Phi\left(\frac{\ln(x/d_{50})}{\ln \sigma_g}\right)",
     typical={"particle_diameter": (1e-5, 1e-3)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_log_normal(
     particle_diameter: Distance, median_diameter: Length, geometric_standard_deviation: _SPREAD
@@ -51,12 +54,14 @@ def cumulative_fraction_log_normal(
 
 @formula(
     source="iso9276-3",
+    title="Cumulative fraction of a normal law",
     equation=r"Q = \Phi\left(\frac{x - \bar x}{\sigma}\right)\ \text{cut at } 0",
     typical={
         "particle_diameter": (1e-4, 3e-4),
         "mean_diameter": (2e-4, 3e-4),
         "standard_deviation": (2e-5, 6e-5),
     },
+    symbols={"particle_diameter": "x", "mean_diameter": r"\bar x"},
 )
 def cumulative_fraction_normal(
     particle_diameter: Distance, mean_diameter: Length, standard_deviation: Length
@@ -73,6 +78,7 @@ def cumulative_fraction_normal(
     source="schuhmann1940",
     equation=r"Q = (x/x_{\max})^n",
     typical={"particle_diameter": (1e-5, 1e-4), "size_maximum": (2e-4, 1e-3)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_gates_gaudin_schuhmann(
     particle_diameter: Distance, size_maximum: Length, distribution_exponent: PositiveNumber
@@ -89,6 +95,7 @@ def cumulative_fraction_gates_gaudin_schuhmann(
     source="gaudin1962",
     equation=r"Q = 1 - (1 - x/x_{\max})^n",
     typical={"particle_diameter": (1e-5, 1e-4), "size_maximum": (2e-4, 1e-3)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_gaudin_meloy(
     particle_diameter: Distance, size_maximum: Length, distribution_exponent: PositiveNumber
@@ -101,7 +108,12 @@ def cumulative_fraction_gaudin_meloy(
     return GaudinMeloy(size_maximum, distribution_exponent)(particle_diameter)
 
 
-@formula(source="lynch1977; tromp1937", equation=r"G = \frac{1}{1 + (d_{50}/x)^n}")
+@formula(
+    source="lynch1977; tromp1937",
+    title="Partition number of a logistic curve",
+    equation=r"G = \frac{1}{1 + (d_{50}/x)^n}",
+    symbols={"particle_diameter": "x"},
+)
 def partition_number_logistic(
     particle_diameter: Distance, cut_size: Length, sharpness: PositiveNumber
 ) -> Fraction:
@@ -117,6 +129,7 @@ def partition_number_logistic(
     source="plitt1976",
     equation=r"G = 1 - \exp\left[-\ln 2\,(x/d_{50})^n\right]",
     typical={"particle_diameter": (5e-5, 1e-4), "cut_size": (5e-5, 1e-4), "sharpness": (1.0, 2.5)},
+    symbols={"particle_diameter": "x"},
 )
 def partition_number_rosin_rammler(
     particle_diameter: Distance, cut_size: Length, sharpness: PositiveNumber
@@ -133,6 +146,7 @@ def partition_number_rosin_rammler(
     source="napiermunn1996",
     equation=r"G = 1 - \frac{e^n - 1}{e^{n x/d_{50}} + e^n - 2}",
     typical={"particle_diameter": (5e-5, 2e-4), "cut_size": (5e-5, 2e-4)},
+    symbols={"particle_diameter": "x"},
 )
 def partition_number_whiten(
     particle_diameter: Distance, cut_size: Length, sharpness: PositiveNumber
@@ -149,6 +163,7 @@ def partition_number_whiten(
     source="molerus1969",
     equation=r"G = \left\{1 + (d_{50}/x)^2 \exp\left[n\left(1 - (x/d_{50})^2\right)\right]\right\}^{-1}",
     typical={"particle_diameter": (5e-5, 2e-4), "cut_size": (5e-5, 2e-4)},
+    symbols={"particle_diameter": "x"},
 )
 def partition_number_molerus_hoffmann(
     particle_diameter: Distance, cut_size: Length, sharpness: Ratio
@@ -179,6 +194,8 @@ def size_law_summary(size_law: Annotated[Any, Law("size_distribution")]) -> LawS
     """Means, percentiles (on the basis of the law), span and specific surface of a size law; a mean whose
     moments are infinite is not a number.
 
+    >>> round(float(size_law_summary(LogNormal("100 um", 1.5)).percentile_50) * 1e6, 2)
+    100.0
     >>> round(float(size_law_summary(RosinRammler("100 um", 1.5)).percentile_50) * 1e6, 2)
     78.32
     """

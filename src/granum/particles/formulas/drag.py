@@ -83,7 +83,7 @@ def drag_coefficient_allen(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="newton1687; perry2008, section 6",
-    equation=r"C_D = 0.44",
+    equation=r"C_D(\mathrm{Re}) = 0.44",
     fitted={"reynolds": (500.0, 2e5)},
 )
 def drag_coefficient_newton(reynolds: PositiveNumber) -> PositiveNumber:
@@ -167,6 +167,7 @@ FIVE_RANGES = (
 
 @formula(
     source="degremont2007, sedimentation of discrete particles",
+    title="Drag coefficient in five ranges",
     equation=(
         r"C_D = a\,\mathrm{Re}^{-n},\ (a,n) = "
         r"(24,1)_{<1},\ (26,0.77)_{<10},\ (20,0.65)_{<100},\ (4.92,0.346)_{<1000},\ (0.44,0)"

@@ -16,8 +16,8 @@ from granum.particles.falling import drag_of_any_shape, shape_factors
 
 @formula(
     source="haider1989",
-    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + A\,\mathrm{Re}^{B}\right) + \frac{C}{1 + D/\mathrm{Re}},\quad"  # noqa: E501
-    r"A = e^{2.3288-6.4581\psi+2.4486\psi^2},\ B = 0.0964+0.5565\psi,\quad"
+    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + A\,\mathrm{Re}^{B}\right) + \frac{C}{1 + D/\mathrm{Re}},\quad "  # noqa: E501
+    r"A = e^{2.3288-6.4581\psi+2.4486\psi^2},\ B = 0.0964+0.5565\psi,\quad "
     r"C = e^{4.905-13.8944\psi+18.4222\psi^2-10.2599\psi^3},\ D = e^{1.4681+12.2584\psi-20.7322\psi^2+15.8855\psi^3}",  # noqa: E501
     fitted={"reynolds": (0.0, 2.6e5)},
     typical={"sphericity": (0.6, 1.0)},
@@ -41,7 +41,7 @@ def drag_coefficient_haider_levenspiel(
 @formula(
     source="ganser1993",
     equation=r"\frac{C_D}{K_2} = \frac{24}{\mathrm{Re}K_1K_2}\left[1 + 0.1118(\mathrm{Re}K_1K_2)^{0.6567}\right]"  # noqa: E501
-    r" + \frac{0.4305}{1 + 3305/(\mathrm{Re}K_1K_2)},\quad"
+    r" + \frac{0.4305}{1 + 3305/(\mathrm{Re}K_1K_2)},\quad "
     r"K_1 = \left(\tfrac13 + \tfrac23\psi^{-1/2}\right)^{-1},\ K_2 = 10^{1.8148(-\log_{10}\psi)^{0.5743}}",
     fitted={"reynolds": (0.0, 1e5)},
 )
@@ -110,6 +110,7 @@ def drag_coefficient_holzer_sommerfeld(
     "drag_coefficient",
     name="ganser_shape",
     source="ganser1993",
+    title="Ganser, shape and wall known",
     equation=r"K_1 = \left(\frac13\frac{d_n}{d_v} + \frac23\psi^{-1/2}\right)^{-1} - 2.25\frac{d_v}{D}",
     fitted={"wall_ratio": (0.0, 0.1)},
 )

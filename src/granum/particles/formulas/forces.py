@@ -16,6 +16,7 @@ from granum.core.kinds import (
     Speed,
     Sphericity,
 )
+from granum.particles.definitions import reynolds_of
 from granum.particles.falling import LEAST, drag_of_shape
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag
@@ -25,7 +26,7 @@ STANDS = "A particle that stands still shows no drag."
 
 @formula(
     source="brown2003; haider1989; clift1978, chapter 5",
-    equation=r"F_D = C_D(\mathrm{Re})\,\frac{\pi d_p^2}{4}\,\frac{\rho_f v^2}{2}",
+    equation=r"F_D = C_D(\mathrm{Re})\,\frac{\pi d_p^2}{4}\,\frac{\rho_f v^2}{2}" + reynolds_of("v"),
 )
 def drag_force(
     particle_diameter: Length,
@@ -54,7 +55,11 @@ def drag_force(
     return jnp.pi / 8.0 * eta**2 / rho * drag_of_shape(drag, sphericity)(moving) * moving * Re
 
 
-@formula(source="clift1978, chapter 5", equation=r"C_D = \frac{4 g d_p |\rho_p - \rho_f|}{3\,\rho_f v_t^2}")
+@formula(
+    source="clift1978, chapter 5",
+    equation=r"C_D = \frac{4 g d_p |\rho_p - \rho_f|}{3\,\rho_f v_t^2}",
+    symbols={"velocity": "v_t"},
+)
 def measured_drag_coefficient(
     particle_diameter: Length,
     velocity: Speed,

@@ -127,7 +127,7 @@ def settling_exponent_maude_whitmore(reynolds: PositiveNumber) -> PositiveNumber
 
 @formula(
     source="richardson1954",
-    equation=r"\frac{v}{v_t} = (1 - \varphi)^{n}",
+    equation=r"\frac{v}{v_t} = (1 - \varphi)^{n(\mathrm{Re})}",
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 def hindrance_richardson_zaki(
@@ -173,7 +173,7 @@ def hindrance_maude_whitmore(solids_volume_fraction: Solids, reynolds: PositiveN
 
 @formula(
     source="khan1989",
-    equation=r"\frac{v}{v_t} = (1 - \varphi)^{n(\mathrm{Ar})}",
+    equation=r"\frac{v}{v_t} = (1 - \varphi)^{n(\mathrm{Re})}",
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 def hindrance_khan_richardson(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
@@ -188,8 +188,11 @@ def hindrance_khan_richardson(solids_volume_fraction: Solids, reynolds: Positive
 
 @formula(
     source="barnea1973",
-    equation=r"C_{D,\varphi} = \left(0.63 + \frac{4.8}{\sqrt{\mathrm{Re}_\varphi}}\right)^2,\quad"
-    r"C_{D,\varphi} = C_D\frac{1-\varphi}{1+\varphi^{1/3}},\ \mathrm{Re}_\varphi = \mathrm{Re}\,e^{-5\varphi/3(1-\varphi)}",  # noqa: E501
+    equation=(
+        r"\frac{v}{v_t} = \sqrt{\frac{C_D}{C_{D,\varphi}}\,\frac{1-\varphi}{1+\varphi^{1/3}}},\quad "
+        r"C_{D,\varphi} = \left(0.63 + \frac{4.8}{\sqrt{\mathrm{Re}_\varphi}}\right)^2,\quad "
+        r"\mathrm{Re}_\varphi = \frac{v}{v_t}\,\mathrm{Re}\,e^{-5\varphi/3(1-\varphi)}"
+    ),
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 def hindrance_barnea_mizrahi(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
@@ -209,7 +212,7 @@ def hindrance_barnea_mizrahi(solids_volume_fraction: Solids, reynolds: PositiveN
 
 @formula(
     source="steinour1944",
-    equation=r"\frac{v}{v_t} = (1-\varphi)^2\,10^{-1.82\varphi}",
+    equation=r"\frac{v}{v_t} = (1-\varphi)^2\,10^{-1.82\varphi},\quad \mathrm{Re} \to 0",
     fitted={"reynolds": (0.0, 0.2), "solids_volume_fraction": (0.0, 0.5)},
 )
 def hindrance_steinour(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
@@ -224,7 +227,10 @@ def hindrance_steinour(solids_volume_fraction: Solids, reynolds: PositiveNumber)
 
 @formula(
     source="happel1958",
-    equation=r"\frac{v}{v_t} = \frac{3 - \frac92\gamma + \frac92\gamma^5 - 3\gamma^6}{3 + 2\gamma^5},\quad \gamma = \varphi^{1/3}",  # noqa: E501
+    equation=(
+        r"\frac{v}{v_t} = \frac{3 - \frac92\gamma + \frac92\gamma^5 - 3\gamma^6}{3 + 2\gamma^5},\quad "
+        r"\gamma = \varphi^{1/3},\quad \mathrm{Re} \to 0"
+    ),
     fitted={"reynolds": (0.0, 0.2)},
 )
 def hindrance_happel(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
@@ -239,7 +245,7 @@ def hindrance_happel(solids_volume_fraction: Solids, reynolds: PositiveNumber) -
 
 @formula(
     source="batchelor1972",
-    equation=r"\frac{v}{v_t} = 1 - 6.55\,\varphi",
+    equation=r"\frac{v}{v_t} = 1 - 6.55\,\varphi,\quad \mathrm{Re} \to 0",
     fitted={"reynolds": (0.0, 0.1), "solids_volume_fraction": (0.0, 0.03)},
     typical={"solids_volume_fraction": (1e-3, 0.03)},
 )

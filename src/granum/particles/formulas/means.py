@@ -70,8 +70,9 @@ def mean_diameter_number_length(class_sizes: Sizes, class_numbers: Amounts) -> L
 
     >>> round(
     ...     mean_diameter_number_length(
-    ...         class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
-    ...     ),
+    ...         class_sizes="3 6 12 24 48 96 um", class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
+    ...     )
+    ...     * 1e6,
     ...     3,
     ... )
     14.475
@@ -89,8 +90,9 @@ def mean_diameter_number_surface(class_sizes: Sizes, class_numbers: Amounts) -> 
 
     >>> round(
     ...     mean_diameter_number_surface(
-    ...         class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
-    ...     ),
+    ...         class_sizes="3 6 12 24 48 96 um", class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
+    ...     )
+    ...     * 1e6,
     ...     2,
     ... )
     17.19
@@ -106,7 +108,7 @@ def mean_diameter_number_surface(class_sizes: Sizes, class_numbers: Amounts) -> 
 def mean_diameter_number_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Diameter of the particle that has the mean volume.
 
-    >>> round(mean_diameter_number_volume(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0]) ** 3, 6)
+    >>> round((mean_diameter_number_volume("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3) ** 3, 6)
     4.5
     """
     return _ratio(class_sizes, class_numbers, 3, 0) ** (1 / 3)
@@ -120,7 +122,7 @@ def mean_diameter_number_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
 def mean_diameter_surface_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Sauter diameter: the size that has the specific surface of the whole.
 
-    >>> mean_diameter_surface_volume(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0])
+    >>> round(mean_diameter_surface_volume("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3, 6)
     1.8
     """
     return _ratio(class_sizes, class_numbers, 3, 2)
@@ -134,7 +136,7 @@ def mean_diameter_surface_volume(class_sizes: Sizes, class_numbers: Amounts) -> 
 def mean_diameter_length_surface(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Mean diameter weighted by length.
 
-    >>> round(mean_diameter_length_surface(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0]), 6)
+    >>> round(mean_diameter_length_surface("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3, 6)
     1.666667
     """
     return _ratio(class_sizes, class_numbers, 2, 1)
@@ -148,7 +150,7 @@ def mean_diameter_length_surface(class_sizes: Sizes, class_numbers: Amounts) -> 
 def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Root of the volume over the length of the whole.
 
-    >>> round(mean_diameter_length_volume(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0]), 6)
+    >>> round(mean_diameter_length_volume("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3, 6)
     1.732051
     """
     return jnp.sqrt(_ratio(class_sizes, class_numbers, 3, 1))
@@ -158,24 +160,28 @@ def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
     source="allen1997; iso9276-2",
     equation=r"D_{4,3} = \sum x_i\,d_i \Big/ \sum x_i",
     title="Mass mean D[4,3]",
+    symbols={"class_sizes": "d_i", "class_masses": "x_i"},
 )
 def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Arithmetic mean diameter by mass (or volume).
 
-    >>> mean_diameter_mass(class_sizes=[1.0, 2.0], class_masses=[3.0, 1.0])
+    >>> round(mean_diameter_mass("1 2 mm", class_masses=[3.0, 1.0]) * 1e3, 6)
     1.25
     """
     return weighted(class_masses, class_sizes, "class_masses")
 
 
 @formula(
-    source="allen1997; iso9276-2", equation=r"\bar d = \frac{1}{\sum x_i/d_i}", title="Harmonic mean by mass"
+    source="allen1997; iso9276-2",
+    equation=r"\bar d = \frac{1}{\sum x_i/d_i}",
+    title="Harmonic mean by mass",
+    symbols={"class_sizes": "d_i", "class_masses": "x_i", "mean_diameter": r"\bar d"},
 )
 def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Harmonic mean diameter by mass: the Sauter diameter of a mass analysis.
 
-    >>> mean_diameter_harmonic(class_sizes=[1.0, 2.0], class_masses=[0.5, 0.5])
-    1.3333333333333333
+    >>> round(mean_diameter_harmonic("1 2 mm", class_masses=[0.5, 0.5]) * 1e3, 6)
+    1.333333
     """
     return 1.0 / weighted(class_masses, 1.0 / class_sizes, "class_masses")
 
@@ -191,10 +197,10 @@ def number_per_mass(
 
     The volume of a particle of size X is k_v X³, π/6 for spheres.
 
-    >>> number_per_mass(
-    ...     class_sizes=[1.0, 2.0], class_masses=[1.0, 1.0], particle_density=0.5625, volume_shape_factor=1.0
+    >>> round(
+    ...     number_per_mass("1 2 mm", class_masses=[1.0, 1.0], particle_density=2250, volume_shape_factor=1.0)
     ... )
-    1.0
+    250000
     """
     return weighted(class_masses, class_sizes**-3.0, "class_masses") / (
         volume_shape_factor * particle_density
@@ -228,7 +234,7 @@ def mean_diameter_moment_ratio(
 ) -> Length:
     """Any moment-ratio mean of discrete sizes, from amounts on any basis; geometric for p = q.
 
-    >>> mean_diameter_moment_ratio(class_sizes=[1.0, 2.0], class_amounts=[1.0, 8.0], basis="volume")
+    >>> round(mean_diameter_moment_ratio("1 2 mm", class_amounts=[1.0, 8.0], basis="volume") * 1e3, 6)
     1.8
     """
     p, q = moment_order_upper - order_of(basis), moment_order_lower - order_of(basis)
@@ -243,6 +249,7 @@ def mean_diameter_moment_ratio(
     equation=r"D_{p,q} = d_{50,r}\,\exp\!\left(\tfrac{p + q - 2r}{2}\,\ln^2\sigma_g\right)",
     title="Mean diameter of a log-normal powder (Hatch–Choate)",
     typical={"moment_order_upper": (3.1, 4.0), "moment_order_lower": (1.0, 2.0)},
+    symbols={"median_diameter": "d_{50,r}"},
 )
 def mean_diameter_hatch_choate(
     median_diameter: Length,
@@ -275,6 +282,7 @@ def mean_diameter_hatch_choate(
     source="hatch1929",
     equation=r"d_{50,s} = d_{50,r}\,\exp\!\left((s - r)\ln^2\sigma_g\right)",
     title="Median on another basis, log-normal (Hatch–Choate)",
+    symbols={"median_diameter": "d_{50,s}"},
 )
 def median_diameter_hatch_choate(
     median_diameter_known: Length,
@@ -327,6 +335,7 @@ def curvature_coefficient(
     source="hatch1929",
     equation=r"\sigma_g = \sqrt{\frac{d_{84.13}}{d_{15.87}}}",
     title="Geometric standard deviation from percentiles",
+    symbols={"percentile_84": "d_{84.13}", "percentile_16": "d_{15.87}"},
 )
 def geometric_standard_deviation(percentile_84: Length, percentile_16: Length) -> PositiveNumber:
     """Geometric standard deviation from the sizes one standard deviation either side of the median.

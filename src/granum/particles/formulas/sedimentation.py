@@ -64,6 +64,7 @@ def _slopes(x: Any, y: Any) -> Any:
     fitted={"particle_diameter": (1e-6, 1e-4)},
     typical=_CLAY,
     equation=r"d = \sqrt{\frac{18\eta\,h}{(\rho_p-\rho_f)g\,t}},\quad Q(d) = \frac{C(t)}{C_0}",
+    symbols={"depth": "h", "particle_diameter": "d"},
 )
 def size_distribution_pipette(
     time: Annotated[Time, Series("readings")],
@@ -116,6 +117,7 @@ def size_distribution_pipette(
         r"d = \sqrt{\frac{18\eta\,h}{(\rho_p-\rho_f)g\,t}},\quad 1 - Q(d) = m - t\frac{\mathrm "
         r"dm}{\mathrm dt}"
     ),
+    symbols={"depth": "h", "particle_diameter": "d"},
 )
 def size_distribution_balance(
     time: Annotated[Time, Series("readings")],

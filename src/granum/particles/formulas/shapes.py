@@ -22,6 +22,7 @@ ROUNDING = 1e-12
     source="wadell1933",
     equation=r"\psi = \left(\frac{d_v}{d_s}\right)^2",
     title="Sphericity from two diameters",
+    typical={"diameter_volume": (1e-4, 2e-4), "diameter_surface": (2.1e-4, 2.5e-4)},
 )
 def sphericity_diameters(diameter_volume: Length, diameter_surface: Length) -> Sphericity:
     """Surface of the sphere of the same volume over the surface of the particle.
@@ -181,7 +182,12 @@ def shape_factor_corey(
     return particle_thickness / jnp.sqrt(particle_length * particle_width)
 
 
-@formula(source="allen1997", equation=r"k_v = \frac{V}{d^3}", title="Volume shape factor")
+@formula(
+    source="allen1997",
+    equation=r"k_v = \frac{V}{d^3}",
+    title="Volume shape factor",
+    symbols={"particle_diameter": "d", "shape_factor": "k_v"},
+)
 def shape_factor_volume(particle_volume: Volume, particle_diameter: Length) -> Ratio:
     """Volume over the cube of the chosen diameter; pi/6 for a sphere.
 
@@ -191,7 +197,12 @@ def shape_factor_volume(particle_volume: Volume, particle_diameter: Length) -> R
     return particle_volume / particle_diameter**3
 
 
-@formula(source="allen1997", equation=r"k_s = \frac{S}{d^2}", title="Surface shape factor")
+@formula(
+    source="allen1997",
+    equation=r"k_s = \frac{S}{d^2}",
+    title="Surface shape factor",
+    symbols={"particle_diameter": "d", "shape_factor": "k_s"},
+)
 def shape_factor_surface(particle_surface: Area, particle_diameter: Length) -> PositiveNumber:
     """Surface over the square of the chosen diameter; pi for a sphere.
 

@@ -26,6 +26,7 @@ from granum.numerics.smooth import safe_divide, safe_power, safe_sqrt
     source="allen1997; iso9276-6",
     equation=r"d_v = \left(\frac{6V}{\pi}\right)^{1/3}",
     title="Volume-equivalent diameter",
+    symbols={"equivalent_diameter": "d_v"},
 )
 def equivalent_diameter_volume(particle_volume: Volume) -> Length:
     """Diameter of the sphere that has the volume of the particle.
@@ -40,6 +41,7 @@ def equivalent_diameter_volume(particle_volume: Volume) -> Length:
     source="allen1997; iso9276-6",
     equation=r"d_s = \left(\frac{S}{\pi}\right)^{1/2}",
     title="Surface-equivalent diameter",
+    symbols={"equivalent_diameter": "d_s"},
 )
 def equivalent_diameter_surface(particle_surface: Area) -> Length:
     """Diameter of the sphere that has the surface of the particle.
@@ -50,7 +52,12 @@ def equivalent_diameter_surface(particle_surface: Area) -> Length:
     return jnp.sqrt(particle_surface / jnp.pi)
 
 
-@formula(source="allen1997", equation=r"d_{sv} = \frac{6V}{S}", title="Surface–volume diameter")
+@formula(
+    source="allen1997",
+    equation=r"d_{sv} = \frac{6V}{S}",
+    title="Surface–volume diameter",
+    symbols={"equivalent_diameter": "d_{sv}"},
+)
 def equivalent_diameter_surface_volume(particle_volume: Volume, particle_surface: Area) -> Length:
     """Diameter of the sphere that has the surface per volume of the particle.
 
@@ -62,7 +69,12 @@ def equivalent_diameter_surface_volume(particle_volume: Volume, particle_surface
     return 6.0 * particle_volume / particle_surface
 
 
-@formula(source="allen1997", equation=r"d_{sv} = \frac{6}{a_g}", title="Diameter from the specific surface")
+@formula(
+    source="allen1997",
+    equation=r"d_{sv} = \frac{6}{a_g}",
+    title="Diameter from the specific surface",
+    symbols={"equivalent_diameter": "d_{sv}"},
+)
 def equivalent_diameter_specific_surface(specific_surface: SpecificSurface) -> Length:
     """Diameter of the sphere that has a given surface per volume.
 
@@ -73,7 +85,10 @@ def equivalent_diameter_specific_surface(specific_surface: SpecificSurface) -> L
 
 
 @formula(
-    source="allen1997; iso9276-6", equation=r"d_a = \sqrt{\frac{4A_p}{\pi}}", title="Projected-area diameter"
+    source="allen1997; iso9276-6",
+    equation=r"d_a = \sqrt{\frac{4A_p}{\pi}}",
+    title="Projected-area diameter",
+    symbols={"equivalent_diameter": "d_a"},
 )
 def equivalent_diameter_projected_area(projected_area: Area) -> Length:
     """Diameter of the circle that has the area of the particle's projection.
@@ -84,7 +99,12 @@ def equivalent_diameter_projected_area(projected_area: Area) -> Length:
     return jnp.sqrt(4.0 * projected_area / jnp.pi)
 
 
-@formula(source="allen1997; iso9276-6", equation=r"d_c = \frac{P}{\pi}", title="Perimeter diameter")
+@formula(
+    source="allen1997; iso9276-6",
+    equation=r"d_c = \frac{P}{\pi}",
+    title="Perimeter diameter",
+    symbols={"equivalent_diameter": "d_c"},
+)
 def equivalent_diameter_perimeter(projected_perimeter: Length) -> Length:
     """Diameter of the circle that has the perimeter of the particle's projection.
 
@@ -100,6 +120,7 @@ def equivalent_diameter_perimeter(projected_perimeter: Length) -> Length:
     fitted={"reynolds": (0.0, 0.25)},
     typical={"terminal_velocity": (1e-6, 1e-4)},
     title="Stokes diameter",
+    symbols={"equivalent_diameter": "d_{St}"},
 )
 def equivalent_diameter_stokes(
     terminal_velocity: Speed,
@@ -137,6 +158,7 @@ def equivalent_diameter_stokes(
     equation=r"d_a = d_v\sqrt{\frac{\rho_p}{\rho_0\,\chi}},\quad \rho_0 = 1000\ \mathrm{kg/m^3}",
     title="Aerodynamic diameter",
     typical={"shape_factor_dynamic": (1.0, 1.5)},
+    symbols={"equivalent_diameter": "d_a"},
 )
 def equivalent_diameter_aerodynamic(
     diameter_volume: Length, particle_density: Density, shape_factor_dynamic: PositiveNumber = 1.0
@@ -153,7 +175,7 @@ def equivalent_diameter_aerodynamic(
 
 @formula(
     source="allen1997",
-    equation=r"a_g = \frac{6}{\psi\,d}",
+    equation=r"a_g = \frac{6}{\psi\,d_v}",
     title="Specific surface from a mean diameter",
     output="specific_surface",
 )
@@ -170,7 +192,7 @@ def specific_surface_diameter(diameter_volume: Length, sphericity: Sphericity = 
 
 @formula(
     source="allen1997",
-    equation=r"S_m = \frac{6}{\rho_s\,\psi\,d}",
+    equation=r"S_m = \frac{6}{\rho_s\,\psi\,d_v}",
     title="Specific surface per mass from a mean diameter",
     output="specific_surface_mass",
 )

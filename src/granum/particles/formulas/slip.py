@@ -114,7 +114,8 @@ Slip = Annotated[Any, Law("slip_factor")]
 
 @formula(
     source="hinds1999, chapter 3; davies1945; clift1978, eq. 3-40",
-    equation=r"v_t = C_c\frac{g\,d_p^2(\rho_p-\rho_f)}{18\,\eta}",
+    title="Terminal velocity with slip",
+    equation=r"v_t = C_c\frac{g\,d_p^2(\rho_p-\rho_f)}{18\,\eta},\quad C_c = C_c(2\lambda/d_p)",
     fitted={"reynolds": (0.0, 0.2)},
     typical={
         "particle_diameter": (1e-8, 2e-5),

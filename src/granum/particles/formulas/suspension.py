@@ -184,6 +184,7 @@ def suspension_viscosity(
 
 @formula(
     source="mooney1951; wallis1969",
+    title="Hindrance by the apparent medium",
     equation=(
         r"\frac{v}{v_t} = "
         r"\left[\frac{1-\varphi}{(\rho_a/\rho_f)^{1-n}\,(\eta_a/\eta)^{n}}\right]^{1/(2-n)},\quad C_D = "
@@ -216,7 +217,14 @@ def hindrance_apparent_medium(
     return jnp.broadcast_arrays(ratio, reynolds)[0]
 
 
-@formula(source="mooney1951; wallis1969", equation=r"v = v_t(\rho_a, \eta_a)")
+@formula(
+    source="mooney1951; wallis1969",
+    title="Terminal velocity of a grain in a suspension",
+    equation=(
+        r"v_t = v_t(d_p, \rho_p, \rho_a, \eta_a),\quad \rho_a = (1 - \varphi)\,\rho_f + "
+        r"\varphi\,\rho_p,\quad \eta_a = \eta\,\eta_r(\varphi)"
+    ),
+)
 def terminal_velocity_collective(
     particle_diameter: Length,
     particle_density: Density,
@@ -261,10 +269,13 @@ class DilutedSuspension(NamedTuple):
 
 @formula(
     source="degremont2007, sedimentation; stokes1851",
-    equation=r"\nu_a = \nu\frac{D + 1/\rho_p}{D - D_{lim}},\ \rho_a = \frac{D\rho_f + 1}{D + 1/\rho_p},\quad"
-    r"v = \frac{g d_p^2 (\rho_p - \rho_f)(D - D_{lim})}{18\,\nu\,(\rho_f + 1/D)(D + 1/\rho_p)}",
+    equation=(
+        r"\nu_a = \nu\frac{D + 1/\rho_p}{D - D_{lim}},\ \rho_a = \frac{D\rho_f + 1}{D + 1/\rho_p},\quad "
+        r"v_t = \frac{g d_p^2 (\rho_p - \rho_f)(D - D_{lim})}{18\,\nu\,(\rho_f + 1/D)(D + 1/\rho_p)}"
+    ),
     fitted={"reynolds": (0.0, 1.0)},
     typical={"dilution_limit": (1e-4, 4e-4), "liquid_volume_per_solid_mass": (1e-3, 1e-2)},
+    symbols={"density": r"\rho_a", "=kinematic_viscosity": r"\nu_a"},
 )
 def diluted_suspension(
     particle_diameter: Length,

@@ -11,6 +11,7 @@ import jax.numpy as jnp
 from granum.core import formula, impossible, limit_active, unconverged
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Law, Length, Sphericity, Velocity
+from granum.particles.definitions import reynolds_of
 from granum.particles.falling import (
     EQUAL_DENSITIES,
     LEAST,
@@ -27,9 +28,10 @@ Drag = Annotated[Any, Law("drag_coefficient")]
 @formula(
     source="brown2003; haider1989; clift1978, chapter 5",
     equation=(
-        r"v_t = \mathrm{sgn}(\rho_p - \rho_f)\sqrt{\frac{4 g d_p |\rho_p - \rho_f|}{3\, C_D(\mathrm{Re})\, "
-        r"\rho_f}}"
-    ),
+        r"v_t = \mathrm{sgn}(\rho_p - \rho_f)\sqrt{\frac{4 g d_p |\rho_p - \rho_f|}{3\, "
+        r"C_D(\mathrm{Re})\, \rho_f}}"
+    )
+    + reynolds_of("v_t"),
 )
 def terminal_velocity(
     particle_diameter: Length,

@@ -21,6 +21,7 @@ from granum.core.kinds import (
     Velocity,
     Within,
 )
+from granum.particles.definitions import ARCHIMEDES, SIZE_AND_VELOCITY, reynolds_of, velocity_of
 
 
 def _reynolds(velocity: Any, d: Any, rho: Any, eta: Any) -> Any:
@@ -63,6 +64,7 @@ def terminal_velocity_stokes(
 
 @formula(
     source="allen1900; perry2008, section 6",
+    title="Terminal velocity in a power-law fluid",
     equation=r"v_t^{2-n} = \frac{4}{3}\frac{g(\rho_p-\rho_f)d_p^{1+n}}{a\,\rho_f^{1-n}\eta^{n}}",
     typical={"drag_exponent": (0.0, 1.0), "drag_factor": (0.4, 26.0)},
 )
@@ -138,7 +140,7 @@ def terminal_velocity_allen(
 
 @formula(
     source="newton1687; perry2008, section 6",
-    equation=r"v_t = \sqrt{\frac{4}{3\cdot0.44}\frac{g(\rho_p-\rho_f)d_p}{\rho_f}}",
+    equation=r"v_t = \sqrt{\frac{4}{3\cdot0.44}\frac{g(\rho_p-\rho_f)d_p}{\rho_f}}" + reynolds_of("v_t"),
     fitted={"reynolds": (500.0, 2e5)},
 )
 def terminal_velocity_newton(
@@ -173,7 +175,9 @@ def _from_reynolds(Re: Any, d: Any, rho_p: Any, rho: Any, eta: Any) -> Any:
 
 @formula(
     source="khan1987",
-    equation=r"\mathrm{Re} = \left(2.33\,\mathrm{Ar}^{0.018} - 1.53\,\mathrm{Ar}^{-0.016}\right)^{13.3}",
+    equation=r"\mathrm{Re} = \left(2.33\,\mathrm{Ar}^{0.018} - 1.53\,\mathrm{Ar}^{-0.016}\right)^{13.3}"
+    + velocity_of("v_t")
+    + ARCHIMEDES,
     fitted={"reynolds": (0.01, 3e5)},
 )
 def terminal_velocity_khan_richardson(
@@ -204,8 +208,13 @@ def terminal_velocity_khan_richardson(
 
 @formula(
     source="brown2003",
-    equation=r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.898\frac{0.936 d_*+1}{d_*+1}} + \left(\frac{0.317}{d_*}\right)^{0.449}\right]^{-1.114},"  # noqa: E501
-    r"\quad d_* = \mathrm{Ar}^{1/3},\ u_* = \mathrm{Re}\,\mathrm{Ar}^{-1/3}",
+    equation=(
+        r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.898\frac{0.936 d_*+1}{d_*+1}} + "
+        r"\left(\frac{0.317}{d_*}\right)^{0.449}\right]^{-1.114},\quad d_* = \mathrm{Ar}^{1/3},\ u_* = "
+        r"\mathrm{Re}\,\mathrm{Ar}^{-1/3}"
+    )
+    + velocity_of("v_t")
+    + ARCHIMEDES,
     fitted={"reynolds": (0.0, 4000.0)},
 )
 def terminal_velocity_brown_lawler(
@@ -235,7 +244,10 @@ def terminal_velocity_brown_lawler(
 
 @formula(
     source="haider1989",
-    equation=r"u_* = \left[\frac{18}{d_*^2} + \frac{2.3348 - 1.7439\psi}{d_*^{0.5}}\right]^{-1}",
+    equation=r"u_* = \left[\frac{18}{d_*^2} + \frac{2.3348 - 1.7439\psi}{d_*^{0.5}}\right]^{-1}"
+    + SIZE_AND_VELOCITY
+    + velocity_of("v_t")
+    + ARCHIMEDES,
     fitted={"sphericity": (0.5, 1.0)},
 )
 def terminal_velocity_haider_levenspiel(
@@ -268,7 +280,13 @@ def terminal_velocity_haider_levenspiel(
 
 @formula(
     source="turton1987",
-    equation=r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.824} + \left(\frac{0.321}{d_*}\right)^{0.412}\right]^{-1.214}",  # noqa: E501
+    equation=(
+        r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.824} + "
+        r"\left(\frac{0.321}{d_*}\right)^{0.412}\right]^{-1.214}"
+    )
+    + SIZE_AND_VELOCITY
+    + velocity_of("v_t")
+    + ARCHIMEDES,
     fitted={"reynolds": (0.0, 2.6e5)},
 )
 def terminal_velocity_turton_clark(
@@ -297,7 +315,9 @@ def terminal_velocity_turton_clark(
 
 @formula(
     source="zigrang1981",
-    equation=r"\mathrm{Re} = \left(\sqrt{14.51 + 1.83\sqrt{\mathrm{Ar}}} - 3.81\right)^2",
+    equation=r"\mathrm{Re} = \left(\sqrt{14.51 + 1.83\sqrt{\mathrm{Ar}}} - 3.81\right)^2"
+    + velocity_of("v_t")
+    + ARCHIMEDES,
     fitted={"reynolds": (0.0, 1e5)},
 )
 def terminal_velocity_zigrang_sylvester(
@@ -327,7 +347,10 @@ def terminal_velocity_zigrang_sylvester(
 
 @formula(
     source="ferguson2004, eq. 4",
-    equation=r"v_t = \frac{R g d_p^2}{C_1\nu + \sqrt{0.75\,C_2 R g d_p^3}},\quad R = \frac{\rho_p-\rho_f}{\rho_f}",  # noqa: E501
+    equation=(
+        r"v_t = \frac{R g d_p^2}{C_1\nu + \sqrt{0.75\,C_2 R g d_p^3}},\quad R = "
+        r"\frac{\rho_p-\rho_f}{\rho_f},\quad \nu = \frac{\eta}{\rho_f}"
+    ),
     typical={"newton_drag": (0.4, 1.2)},
 )
 def terminal_velocity_ferguson_church(

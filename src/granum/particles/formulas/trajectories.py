@@ -99,8 +99,12 @@ def trajectory_stokes(
 
 @formula(
     source="clift1978, chapter 11; brown2003",
-    equation=r"(\rho_p+C_A\rho_f)\frac{\mathrm d\mathbf v}{\mathrm dt} = (\rho_p-\rho_f)\mathbf g - \frac{3}{4}\frac{\rho_f}{d_p}C_D(\mathrm{Re})"  # noqa: E501
-    r"|\mathbf v-\mathbf u|(\mathbf v-\mathbf u)",
+    equation=(
+        r"(\rho_p+C_A\rho_f)\frac{\mathrm d\mathbf v}{\mathrm dt} = (\rho_p-\rho_f)\mathbf g - "
+        r"\frac{3}{4}\frac{\rho_f}{d_p}C_D(\mathrm{Re})|\mathbf v-\mathbf u|(\mathbf v-\mathbf u),\quad "
+        r"\mathrm{Re} = \frac{\rho_f\,|\mathbf v-\mathbf u|\,d_p}{\eta},\quad \frac{\mathrm d "
+        r"x}{\mathrm dt} = U_x,\ \frac{\mathrm d y}{\mathrm dt} = v_y"
+    ),
 )
 def trajectory(
     particle_diameter: Length,
@@ -153,7 +157,7 @@ class Settled(NamedTuple):
 
 @formula(
     source="stokes1851; clift1978, chapter 11; clift1978, eq. 3-40",
-    equation=r"y(t) = h,\quad L = x(t)",
+    equation=r"y(t; d_p, \rho_p, \rho_f, \eta) = H,\quad L = x(t; d_p, \rho_p, \rho_f, \eta)",
     fitted={"reynolds": (0.0, 0.2)},
     typical={"height": (0.05, 1.0), "stream_velocity": (0.0, 0.1), "initial_horizontal_velocity": (0.0, 1.0)},
 )
@@ -218,7 +222,7 @@ def settling_distance_stokes(
 
 @formula(
     source="clift1978, chapter 11; brown2003",
-    equation=r"y(t) = h,\quad L = x(t)",
+    equation=r"y(t; d_p, \rho_p, \rho_f, \eta) = H,\quad L = x(t; d_p, \rho_p, \rho_f, \eta)",
     typical={
         "height": (0.05, 0.5),
         "stream_velocity": (0.0, 0.1),

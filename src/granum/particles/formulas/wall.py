@@ -146,7 +146,12 @@ def wall_factor_kehlenbeck_di_felice(wall_ratio: WallRatio, reynolds: PositiveNu
     return (1.0 - x**p) / (1.0 + (x / centre) ** p)
 
 
-@formula(source="difelice1996; clift1978, chapter 9", equation=r"v = v_t\,k(\lambda, \mathrm{Re})")
+@formula(
+    source="difelice1996; clift1978, chapter 9",
+    title="Terminal velocity between walls",
+    equation=r"v = v_t\,k(\lambda, \mathrm{Re})",
+    symbols={"=terminal_velocity": "v"},
+)
 def terminal_velocity_bounded(
     terminal_velocity: Velocity,
     wall_ratio: WallRatio,

@@ -89,7 +89,7 @@ def permeability_darcy(
     return jnp.where(measured, B, jnp.nan)
 
 
-@formula(source="darcy1856; bear1972", equation=r"K = \frac{B\rho g}{\eta}")
+@formula(source="darcy1856; bear1972", equation=r"K = \frac{B\rho_f g}{\eta}")
 def hydraulic_conductivity(
     permeability: Permeability,
     fluid_density: Density,
@@ -112,7 +112,8 @@ def hydraulic_conductivity(
 
 @formula(
     source="darcy1856; bear1972",
-    equation=r"B = \frac{K\eta}{\rho g}",
+    title="Permeability from the hydraulic conductivity",
+    equation=r"B = \frac{K\eta}{\rho_f g}",
     typical={"hydraulic_conductivity": (1e-6, 1e-2)},
 )
 def permeability_from_conductivity(
@@ -133,7 +134,7 @@ def permeability_from_conductivity(
 
 
 @formula(
-    source="forchheimer1901; bear1972", equation=r"\frac{\Delta p}{L} = \frac{\eta}{B}U + \beta\rho U|U|"
+    source="forchheimer1901; bear1972", equation=r"\frac{\Delta p}{L} = \frac{\eta}{B}U + \beta\rho_f U|U|"
 )
 def pressure_drop_forchheimer(
     superficial_velocity: Velocity,
@@ -163,7 +164,7 @@ def pressure_drop_forchheimer(
 
 @formula(
     source="forchheimer1901; bear1972",
-    equation=r"U = \frac{2\,\Delta p/L}{\eta/B + \sqrt{(\eta/B)^2 + 4\beta\rho|\Delta p|/L}}",
+    equation=r"U = \frac{2\,\Delta p/L}{\eta/B + \sqrt{(\eta/B)^2 + 4\beta\rho_f|\Delta p|/L}}",
 )
 def superficial_velocity_forchheimer(
     pressure_drop: PressureDifference,
@@ -198,7 +199,7 @@ def superficial_velocity_forchheimer(
     )
 
 
-@formula(source="bear1972; forchheimer1901", equation=r"\mathrm{Fo} = \frac{B\beta\rho U}{\eta}")
+@formula(source="bear1972; forchheimer1901", equation=r"\mathrm{Fo} = \frac{B\beta\rho_f U}{\eta}")
 def forchheimer_number(
     superficial_velocity: Velocity,
     permeability: Permeability,
@@ -225,6 +226,7 @@ def forchheimer_number(
     source="poiseuille1846; white2006",
     equation=r"\Delta p = 32\,\gamma\,\frac{\eta L U}{d_h^2}",
     typical={"noncircularity": (0.83, 1.5), "pore_diameter": (1e-6, 1e-3)},
+    symbols={"velocity": "U", "pore_diameter": "d_h"},
 )
 def pressure_drop_poiseuille(
     velocity: Velocity,
@@ -250,6 +252,7 @@ def pressure_drop_poiseuille(
 
 @formula(
     source="shah1978, eq. 341",
+    title="Non-circularity of a rectangular channel",
     equation=r"\gamma = \tfrac32\left(1 - 1.3553a + 1.9467a^2 - 1.7012a^3 + 0.9564a^4 - 0.2537a^5\right)",
     typical={"side_ratio": (0.0, 1.0)},
 )
@@ -269,6 +272,7 @@ def noncircularity_rectangle(side_ratio: Annotated[Ratio, Within(0.0, 1.0)]) -> 
     equation=r"B_g = B\left(1 + \frac{b}{p}\right)",
     fitted={"klinkenberg_ratio": (0.0, 0.4)},
     typical={"klinkenberg_pressure": (1e3, 1e5)},
+    symbols={"=permeability": "B_g"},
 )
 def permeability_klinkenberg(
     permeability: Permeability, pressure: PressureDrop, klinkenberg_pressure: PressureDrop

@@ -29,12 +29,14 @@ CHOKED = "The gas chokes: its pressure falls to zero before the end of the bed."
 
 @formula(
     source="darcy1856; muskat1937",
+    title="Permeability measured with a gas",
     equation=r"B = \frac{2\eta L U_2 p_2}{p_1^2 - p_2^2}",
     typical={
         "pressure_inlet": (1.2e5, 5e5),
         "pressure_outlet": (9e4, 1.1e5),
         "dynamic_viscosity": (1e-5, 3e-5),
     },
+    symbols={"superficial_velocity": "U_2"},
 )
 def permeability_gas(
     superficial_velocity: Speed,
@@ -78,7 +80,8 @@ def _resistance(G: Any, d: Any, e: Any, eta: Any, psi: Any, law: Any) -> Any:
 
 @formula(
     source="ergun1952; bird2002, section 6.4",
-    equation=r"p_1^2 - p_2^2 = \frac{2RT}{M}L\left[\rho\frac{\mathrm dp}{\mathrm dz}\right]_{G}",
+    title="Outlet pressure of gas through a bed",
+    equation=r"p_2^2 = p_1^2 - \frac{2RTL}{M}\,\rho\frac{\mathrm dp}{\mathrm dz}(G, d_p, \varepsilon, \eta)",
     typical={
         "mass_flux": (0.01, 0.5),
         "pressure_inlet": (2e5, 5e5),
@@ -129,7 +132,8 @@ def pressure_outlet_gas_bed(
 
 @formula(
     source="ergun1952; bird2002, section 6.4",
-    equation=r"\frac{(p_1^2 - p_2^2)M}{2RTL} = \left[\rho\frac{\mathrm dp}{\mathrm dz}\right]_{G}",
+    title="Mass flux of gas through a bed",
+    equation=r"\rho\frac{\mathrm dp}{\mathrm dz}(G, d_p, \varepsilon, \eta) = \frac{(p_1^2 - p_2^2)M}{2RTL}",
     typical={
         "pressure_inlet": (1.5e5, 5e5),
         "pressure_outlet": (9e4, 1.4e5),

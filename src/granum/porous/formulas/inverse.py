@@ -30,7 +30,8 @@ LOGIT = 16.0  # porosities searched: 1e-7 to 1 − 1e-7
 
 @formula(
     source="ergun1952; macdonald1979",
-    equation=r"\Delta p = L\,\frac{\mathrm dp}{\mathrm dz}(U, d_p, \varepsilon, \rho, \eta)",
+    title="Pressure drop of a packed bed",
+    equation=r"\Delta p = L\,\frac{\mathrm dp}{\mathrm dz}(U, d_p, \varepsilon, \rho_f, \eta)",
 )
 def pressure_drop_packed_bed(
     superficial_velocity: Speed,
@@ -65,7 +66,8 @@ def pressure_drop_packed_bed(
 
 @formula(
     source="ergun1952; macdonald1979",
-    equation=r"\frac{\mathrm dp}{\mathrm dz}(U) = \frac{\Delta p}{L}",
+    title="Superficial velocity in a packed bed",
+    equation=r"\frac{\mathrm dp}{\mathrm dz}(U; d_p, \varepsilon, \rho_f, \eta) = \frac{\Delta p}{L}",
     typical={"length": (0.1, 2.0)},
 )
 def superficial_velocity_packed_bed(
@@ -113,7 +115,8 @@ def superficial_velocity_packed_bed(
 
 @formula(
     source="ergun1952; macdonald1979",
-    equation=r"\frac{\mathrm dp}{\mathrm dz}(d_p) = \frac{\Delta p}{L}",
+    title="Particle diameter from a packed bed",
+    equation=r"\frac{\mathrm dp}{\mathrm dz}(d_p; U, \varepsilon, \rho_f, \eta) = \frac{\Delta p}{L}",
     typical={"length": (0.1, 2.0)},
 )
 def particle_diameter_packed_bed(
@@ -163,7 +166,8 @@ def particle_diameter_packed_bed(
 
 @formula(
     source="ergun1952; macdonald1979",
-    equation=r"\frac{\mathrm dp}{\mathrm dz}(\varepsilon) = \frac{\Delta p}{L}",
+    title="Void fraction from a packed bed",
+    equation=r"\frac{\mathrm dp}{\mathrm dz}(\varepsilon; U, d_p, \rho_f, \eta) = \frac{\Delta p}{L}",
     typical={"pressure_drop": (1e3, 1e5)},
 )
 def void_fraction_packed_bed(

@@ -147,6 +147,7 @@ def permeability_rumpf_gupte(particle_diameter: Length, void_fraction: VoidFract
 
 @formula(
     source="stokes1851; happel1958",
+    title="Permeability of sparse obstacles",
     equation=r"B = \frac{d_p^2}{18(1-\varepsilon)}",
     typical={"void_fraction": (0.9, 0.999)},
     fitted={"void_fraction": (0.99, 1.0)},
@@ -270,7 +271,9 @@ def void_fraction_kozeny_carman(
 
 @formula(
     source="carman1937; ergun1952",
+    title="Specific surface of a mixture of grains",
     equation=r"a_g = \sum_i\frac{6 x_i}{\psi d_i},\quad \bar d = \frac{1}{\sum_i x_i/d_i}",
+    symbols={"class_sizes": "d_i", "class_fractions": "x_i"},
 )
 def specific_surface_mixture(
     class_sizes: Annotated[Length, Series("classes")],

@@ -24,6 +24,7 @@ from granum.core.kinds import (
     VoidFraction,
     Within,
 )
+from granum.porous.definitions import BED_REYNOLDS
 
 
 def bed_group(U: Any, d: Any, e: Any, rho: Any, eta: Any) -> tuple[Any, Any]:
@@ -33,7 +34,8 @@ def bed_group(U: Any, d: Any, e: Any, rho: Any, eta: Any) -> tuple[Any, Any]:
 
 @formula(
     source="carman1937; kozeny1927",
-    equation=r"\frac{\Delta p}{L} = 36\,h_K\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}",
+    equation=r"\frac{\Delta p}{L} = 36\,h_K\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}"
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (0.0, 10.0)},
 )
 def pressure_gradient_kozeny_carman(
@@ -68,7 +70,8 @@ def pressure_gradient_kozeny_carman(
 
 @formula(
     source="blake1922; ergun1952",
-    equation=r"\frac{\Delta p}{L} = 150\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}",
+    equation=r"\frac{\Delta p}{L} = 150\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}"
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (0.0, 10.0)},
 )
 def pressure_gradient_blake_kozeny(
@@ -103,7 +106,8 @@ def pressure_gradient_blake_kozeny(
 
 @formula(
     source="burke1928; ergun1952",
-    equation=r"\frac{\Delta p}{L} = 1.75\,\frac{\rho U^2(1-\varepsilon)}{\varepsilon^3\psi d_p}",
+    equation=r"\frac{\Delta p}{L} = 1.75\,\frac{\rho_f U^2(1-\varepsilon)}{\varepsilon^3\psi d_p}"
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (1000.0, 1e5)},
 )
 def pressure_gradient_burke_plummer(
@@ -140,7 +144,10 @@ def pressure_gradient_burke_plummer(
 
 @formula(
     source="ergun1952",
-    equation=r"\frac{\Delta p}{L} = 150\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2} + 1.75\,\frac{\rho U^2(1-\varepsilon)}{\varepsilon^3\psi d_p}",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = 150\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2} + "
+        r"1.75\,\frac{\rho_f U^2(1-\varepsilon)}{\varepsilon^3\psi d_p}"
+    ),
     fitted={"reynolds_bed": (1.0, 2300.0)},
 )
 def pressure_gradient_ergun(
@@ -177,7 +184,11 @@ def pressure_gradient_ergun(
 
 @formula(
     source="macdonald1979",
-    equation=r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}\left(180 + b\,\mathrm{Re}_1\right)",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}\left(180 + "
+        r"b\,\mathrm{Re}_1\right)"
+    )
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (0.0, 1e4), "void_fraction": (0.36, 0.92)},
     typical={"inertial_constant": (1.8, 4.0)},
 )
@@ -216,8 +227,11 @@ def pressure_gradient_macdonald(
 
 @formula(
     source="carman1937",
-    equation=r"f' = \frac{\Delta p}{L}\frac{\varepsilon^3}{a_g(1-\varepsilon)\rho U^2} = \frac{5}{\mathrm{Re}'} + \frac{0.4}{\mathrm{Re}'^{0.1}},\quad"  # noqa: E501
-    r"\mathrm{Re}' = \frac{\rho U}{a_g(1-\varepsilon)\eta}",
+    equation=(
+        r"f' = \frac{\Delta p}{L}\frac{\varepsilon^3}{a_g(1-\varepsilon)\rho_f U^2} = "
+        r"\frac{5}{\mathrm{Re}'} + \frac{0.4}{\mathrm{Re}'^{0.1}},\quad\mathrm{Re}' = \frac{\rho_f "
+        r"U}{a_g(1-\varepsilon)\eta},\quad a_g = \frac{6}{\psi\,d_p}"
+    ),
     fitted={"reynolds_bed": (0.06, 6e4)},
 )
 def pressure_gradient_carman(
@@ -265,8 +279,11 @@ def pressure_gradient_carman(
 
 @formula(
     source="leva1959; nikitin2026",
-    equation=r"\frac{\Delta p}{L} = 200\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}\ (\text{laminar}),\quad"  # noqa: E501
-    r"3.5\,\frac{\rho^{0.9}U^{1.9}\eta^{0.1}(1-\varepsilon)}{\varepsilon^3 (\psi d_p)^{1.1}}\ (\text{turbulent})",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = 200\,\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}\ "
+        r"(\text{laminar}),\quad 3.5\,\frac{\rho_f^{0.9}U^{1.9}\eta^{0.1}(1-\varepsilon)}{\varepsilon^3 "
+        r"(\psi d_p)^{1.1}}\ (\text{turbulent})"
+    ),
     fitted={"reynolds": (0.0, 1e4)},
 )
 def pressure_gradient_leva(
@@ -306,7 +323,8 @@ def pressure_gradient_leva(
 
 @formula(
     source="stokes1851; happel1958",
-    equation=r"\frac{\Delta p}{L} = 18\,\frac{\eta U(1-\varepsilon)}{d_p^2}",
+    title="Pressure gradient of sparse obstacles",
+    equation=r"\frac{\Delta p}{L} = 18\,\frac{\eta U(1-\varepsilon)}{d_p^2}" + BED_REYNOLDS,
     fitted={"void_fraction": (0.99, 1.0), "reynolds": (0.0, 0.2)},
     typical={"void_fraction": (0.99, 0.999)},
 )
@@ -348,8 +366,11 @@ class BedNumbers(NamedTuple):
 
 @formula(
     source="ergun1952; carman1937",
-    equation=r"\mathrm{Re} = \frac{\rho U\psi d_p}{\eta},\ \mathrm{Re}_1 = \frac{\mathrm{Re}}{1-\varepsilon},\ \mathrm{Re}' = \frac{\mathrm{Re}_1}{6},"  # noqa: E501
-    r"\ s = \frac{1.75\,\mathrm{Re}_1}{150 + 1.75\,\mathrm{Re}_1}",
+    equation=(
+        r"\mathrm{Re} = \frac{\rho_f U\psi d_p}{\eta},\ \mathrm{Re}_1 = "
+        r"\frac{\mathrm{Re}}{1-\varepsilon},\ \mathrm{Re}' = \frac{\mathrm{Re}_1}{6},\ s = "
+        r"\frac{1.75\,\mathrm{Re}_1}{150 + 1.75\,\mathrm{Re}_1}"
+    ),
 )
 def packed_bed_numbers(
     superficial_velocity: Speed,

@@ -22,12 +22,18 @@ from granum.core.kinds import (
     VoidFraction,
     Within,
 )
+from granum.particles.definitions import reynolds_of
+from granum.porous.definitions import BED_REYNOLDS
 from granum.porous.formulas.packed_beds import bed_group
 
 
 @formula(
     source="tallmadge1970",
-    equation=r"f = \frac{150}{\mathrm{Re}_1} + \frac{4.2}{\mathrm{Re}_1^{1/6}}",
+    equation=(
+        r"\frac{\Delta p}{L} = f\,\frac{\rho_f\,U^2(1-\varepsilon)}{\varepsilon^3\psi\,d_p},\quad f = "
+        r"\frac{150}{\mathrm{Re}_1} + \frac{4.2}{\mathrm{Re}_1^{1/6}}"
+    )
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (0.1, 1e5)},
 )
 def pressure_gradient_tallmadge(
@@ -61,7 +67,11 @@ def pressure_gradient_tallmadge(
 
 @formula(
     source="erdim2015",
-    equation=r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 (\psi d_p)^2}\left(160 + 2.81\,\mathrm{Re}_1^{0.904}\right)",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 (\psi d_p)^2}\left(160 + "
+        r"2.81\,\mathrm{Re}_1^{0.904}\right)"
+    )
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (2.0, 3600.0)},
 )
 def pressure_gradient_erdim(
@@ -96,7 +106,11 @@ def pressure_gradient_erdim(
 
 @formula(
     source="brauer1971",
-    equation=r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 (\psi d_p)^2}\left(160 + 3.1\,\mathrm{Re}_1^{0.9}\right)",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 (\psi d_p)^2}\left(160 + "
+        r"3.1\,\mathrm{Re}_1^{0.9}\right)"
+    )
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (0.01, 4e4)},
 )
 def pressure_gradient_brauer(
@@ -130,7 +144,12 @@ def pressure_gradient_brauer(
 
 @formula(
     source="kta1981",
-    equation=r"f = \frac{160}{\mathrm{Re}_1} + \frac{3}{\mathrm{Re}_1^{0.1}}",
+    title="Pressure gradient of a pebble bed (KTA)",
+    equation=(
+        r"\frac{\Delta p}{L} = f\,\frac{\rho_f\,U^2(1-\varepsilon)}{\varepsilon^3\psi\,d_p},\quad f = "
+        r"\frac{160}{\mathrm{Re}_1} + \frac{3}{\mathrm{Re}_1^{0.1}}"
+    )
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (1.0, 1e5), "void_fraction": (0.36, 0.42)},
     typical={"void_fraction": (0.36, 0.42)},
 )
@@ -165,7 +184,11 @@ def pressure_gradient_kta(
 
 @formula(
     source="gibilaro1985",
-    equation=r"\frac{\Delta p}{L} = \left(\frac{17.3}{\mathrm{Re}} + 0.336\right)\frac{\rho U^2}{d_p}(1-\varepsilon)\varepsilon^{-4.8}",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = \left(\frac{17.3}{\mathrm{Re}} + 0.336\right)\frac{\rho_f "
+        r"U^2}{d_p}(1-\varepsilon)\varepsilon^{-4.8}"
+    )
+    + reynolds_of("U"),
     fitted={"void_fraction": (0.4, 1.0)},
 )
 def pressure_gradient_gibilaro(
@@ -199,7 +222,11 @@ def pressure_gradient_gibilaro(
 
 @formula(
     source="nemec2005",
-    equation=r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi d_p)^2}\left(\frac{150}{\psi^{3/2}} + \frac{1.75}{\psi^{4/3}}\mathrm{Re}_1\right)",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = \frac{\eta U(1-\varepsilon)^2}{\varepsilon^3(\psi "
+        r"d_p)^2}\left(\frac{150}{\psi^{3/2}} + \frac{1.75}{\psi^{4/3}}\mathrm{Re}_1\right)"
+    )
+    + BED_REYNOLDS,
     fitted={"reynolds_bed": (0.0, 400.0)},
 )
 def pressure_gradient_nemec_levec(
@@ -237,7 +264,7 @@ def pressure_gradient_nemec_levec(
     "pressure_gradient",
     name="eisfeld_schnitzlein",
     source="eisfeld2001",
-    equation=r"\frac{\Delta p}{L} = K_1A_w^2\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 d_p^2} + \frac{A_w}{B_w}\frac{\rho U^2(1-\varepsilon)}{\varepsilon^3d_p},\quad"  # noqa: E501
+    equation=r"\frac{\Delta p}{L} = K_1A_w^2\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 d_p^2} + \frac{A_w}{B_w}\frac{\rho U^2(1-\varepsilon)}{\varepsilon^3d_p},\quad "  # noqa: E501
     r"A_w = 1 + \frac{2}{3(D/d_p)(1-\varepsilon)},\ B_w = \left[k_1(d_p/D)^2 + k_2\right]^2",
 )
 class EisfeldSchnitzlein(eqx.Module):
@@ -285,7 +312,10 @@ def wall_factors(
 
 @formula(
     source="eisfeld2001, table 2",
-    equation=r"\frac{\Delta p}{L} = 154A_w^2\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 d_p^2} + \frac{A_w}{B_w}\frac{\rho U^2(1-\varepsilon)}{\varepsilon^3d_p}",  # noqa: E501
+    equation=(
+        r"\frac{\Delta p}{L} = 154A_w^2\frac{\eta U(1-\varepsilon)^2}{\varepsilon^3 d_p^2} + "
+        r"\frac{A_w}{B_w}\frac{\rho_f U^2(1-\varepsilon)}{\varepsilon^3d_p}"
+    ),
     fitted={"reynolds_bed": (0.01, 2e4), "wall_ratio": (0.0, 0.5)},
     typical={"wall_ratio": (0.0, 0.4)},
 )

@@ -14,6 +14,7 @@ WallRatio = Annotated[Ratio, Within(0.0, 1.0)]
 
 @formula(
     source="carman1937",
+    title="Void fraction from the mass of a bed",
     equation=r"\varepsilon = 1 - \frac{m}{\rho_s A L}",
     typical={"mass": (10.0, 100.0), "area": (0.05, 0.1), "length": (0.5, 1.0)},
 )
@@ -31,7 +32,7 @@ def void_fraction_from_mass(mass: Mass, solid_density: Density, area: Area, leng
 
 @formula(
     source="dixon1988",
-    equation=r"\varepsilon = 0.4 + 0.05\lambda + 0.412\lambda^2\ (\lambda\le0.5),\quad 0.528 + 2.464(\lambda - 0.5)\ (\lambda\le0.536),\quad"  # noqa: E501
+    equation=r"\varepsilon = 0.4 + 0.05\lambda + 0.412\lambda^2\ (\lambda\le0.5),\quad 0.528 + 2.464(\lambda - 0.5)\ (\lambda\le0.536),\quad "  # noqa: E501
     r"1 - 0.667\lambda^3(2\lambda-1)^{-1/2}",
     typical={"wall_ratio": (0.0, 0.5)},
 )
@@ -50,7 +51,7 @@ def void_fraction_dixon(wall_ratio: WallRatio) -> VoidFraction:
 
 @formula(
     source="benyahia2005",
-    equation=r"\varepsilon = 0.390 + \frac{1.740}{(D/d_p + 1.140)^2}",
+    equation=r"\varepsilon = 0.390 + \frac{1.740}{(1/\lambda + 1.140)^2}",
     fitted={"wall_ratio": (0.02, 0.67)},
     typical={"wall_ratio": (0.02, 0.6)},
 )

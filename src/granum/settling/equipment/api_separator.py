@@ -32,6 +32,7 @@ from granum.settling.equipment.gravity import (
     over_axes,
     skim,
 )
+from granum.settling.equipment.rakes import RAKED, scraped
 from granum.settling.formulas.api import (
     HORIZONTAL_LIMIT,
     basin_length_api,
@@ -40,7 +41,8 @@ from granum.settling.formulas.api import (
     turbulence_factor_api,
 )
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA
 
 ROUNDING = 1e-9
 FOOT = 0.3048  # m
@@ -97,6 +99,8 @@ class ApiSeparator(Unit):
         "width": Limit("width", 6 * FOOT, 20 * FOOT, "m", "api421"),
     }
 
+    utilities: ClassVar[Utilities] = RAKED | AREA
+
     def inside(self, feed: Stream) -> tuple[Any, Any, Any]:
         """Horizontal velocity, rise velocity of the design globule of the lightest species, turbulence
         factor.
@@ -144,6 +148,14 @@ class ApiSeparator(Unit):
             "slender": self.length / self.width,
             "depth": self.height,
             "width": self.width,
+        }
+
+    def drawn(
+        self, inside: tuple[Any, Any, Any], outlets: Skimmed, figures: SeparatorFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {
+            "electric_power_rake": scraped(self.length, self.channel_number * self.width),
+            "area_installed": figures.basin_area,
         }
 
     @classmethod

@@ -30,11 +30,13 @@ from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.settling.column import Cone, Operation, Simulation, Suspension, simulate
 from granum.settling.equipment.gravity import Outlets, concentration, divide, floating_share
+from granum.settling.equipment.rakes import RAKED, THICKENER, raked
 from granum.settling.flux import passing_flux, steady_state
 from granum.streams.holdup import filled, trapezoid
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Dynamic, Limits, Unit
+from granum.streams.units import Dynamic, Limits, Unit, Utilities
+from granum.streams.utilities import AREA
 
 PERIODS = 12  # of the approach to the steady state
 
@@ -102,6 +104,8 @@ class ClarifierThickener(Unit, Dynamic):
         "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916"),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
     }
+
+    utilities: ClassVar[Utilities] = RAKED | AREA
 
     def _velocities(self, feed: Stream) -> tuple[Any, Any]:
         """Feed and underflow per area, m/s; the underflow is at most the feed."""
@@ -330,6 +334,11 @@ class ClarifierThickener(Unit, Dynamic):
             "floats": floating_share(feed),
             "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
         }
+
+    def drawn(
+        self, inside: Simulation, outlets: Outlets, figures: ClarifierThickenerFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {"electric_power_rake": raked(self.area, THICKENER), "area_installed": self.area}
 
 
 def _feed_cell(share: Any, cells: int) -> Any:

@@ -4,27 +4,13 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Mapping
-from dataclasses import KW_ONLY
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import HOUR
-from granum.core.kinds import (
-    Angle,
-    Area,
-    Concentration,
-    ForcePerLength,
-    Fraction,
-    Length,
-    PositiveNumber,
-    Power,
-    Ratio,
-    Speed,
-    Torque,
-    VolumeFlow,
-)
+from granum.core.kinds import Angle, Area, Concentration, Length, PositiveNumber, Ratio, VolumeFlow
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import (
     DRAG,
@@ -37,11 +23,8 @@ from granum.settling.equipment.gravity import (
     Skimmed,
     class_velocities,
 )
-from granum.settling.formulas.basins import (
-    rake_torque_circular,
-    removal_efficiency_camp,
-    removal_efficiency_hazen,
-)
+from granum.settling.equipment.rakes import CLARIFIER, RAKED, raked, scraped
+from granum.settling.formulas.basins import removal_efficiency_camp, removal_efficiency_hazen
 from granum.settling.formulas.lamella import (
     critical_velocity_cocurrent,
     critical_velocity_countercurrent,
@@ -50,7 +33,8 @@ from granum.settling.formulas.lamella import (
 from granum.streams.holdup import Held, at_rest, filled, mass, mixed
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Dynamic, Limits
+from granum.streams.units import Dynamic, Limits, Utilities
+from granum.streams.utilities import AREA
 
 
 def grade_efficiency(velocity: Any, critical: Any, tank_number: Any) -> Any:
@@ -105,14 +89,10 @@ class Clarifier(AbstractBasin):
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 
-    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
-        return self.settled(inside, outlets, feed)
+    utilities: ClassVar[Utilities] = RAKED | AREA
 
     def settling_area(self) -> Any:
         return self.area
-
-    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
-        return self.thinner(feed)
 
     @classmethod
     def size(
@@ -123,16 +103,8 @@ class Clarifier(AbstractBasin):
             area=volume_flow / settling_velocity, underflow_concentration=underflow_concentration, **more
         )
 
-
-LOADING: Limits = {
-    "rate": Limit("overflow rate", 0.0, 5.0, "m/hour", "metcalf2003"),
-    "weir": Limit("flow over a meter of weir", 0.0, 20.8, "m^2/hour", "metcalf2003"),
-}
-
-
-def loading(rate: Any, overflow: Stream, weir: Any) -> dict[str, Any]:
-    """Numbers for the limits of the surface and of the weir."""
-    return {"rate": rate * HOUR, "weir": overflow.slurry_volume_flow / weir * HOUR}
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_rake": raked(self.area, CLARIFIER), "area_installed": self.area}
 
 
 class _Deep(AbstractBasin, Dynamic):
@@ -166,25 +138,11 @@ class _Deep(AbstractBasin, Dynamic):
         return state, self(evened)
 
 
-class CircularFigures(NamedTuple):
-    """Figures of a circular clarifier."""
-
-    overflow_rate: Speed
-    removal_efficiency: Fraction
-    underflow_volume_flow: VolumeFlow
-    underflow_concentration: Concentration
-    overflow_concentration: Concentration
-    rake_torque: Torque
-    shaft_power: Power
-
-
 @equipment("circular_clarifier", source="degremont2007; hazen1904", title="Circular scraped clarifier")
 class CircularClarifier(_Deep):
     """Circular clarifier with a rotating scraper, fed in the center.
 
-    Practical limits: diameter at most 50 to 60 m, depth at the wall 2 to 3.5 m, bottom slope 4 to 8 %. The
-    weir goes once around unless its length is given. The rakes are loaded by ``rake_load`` on each meter of
-    two arms.
+    Practical limits: diameter at most 50 to 60 m, depth at the wall 2 to 3.5 m, bottom slope 4 to 8 %.
     """
 
     diameter: Length
@@ -194,45 +152,30 @@ class CircularClarifier(_Deep):
     tank_number: PositiveNumber | None = 3.0
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
-    _: KW_ONLY
-    weir_length: Length | None = None
-    rake_load: ForcePerLength = 200.0
-    rake_speed: Speed = 0.05
 
-    limits: ClassVar[Limits] = (
-        AbstractBasin.limits
-        | LOADING
-        | {
-            "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
-            "depth": Limit("depth at the wall", 2.0, 3.5, "m", "degremont2007"),
-            "slope": Limit("bottom slope", 0.04, 0.08, "dimensionless", "degremont2007"),
-            "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
-        }
-    )
+    limits: ClassVar[Limits] = AbstractBasin.limits | {
+        "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
+        "depth": Limit("depth at the wall", 2.0, 3.5, "m", "degremont2007"),
+        "slope": Limit("bottom slope", 0.04, 0.08, "dimensionless", "degremont2007"),
+        "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
+    }
+
+    utilities: ClassVar[Utilities] = RAKED | AREA
 
     def settling_area(self) -> Any:
         return jnp.pi / 4.0 * self.diameter**2
 
-    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> CircularFigures:
-        torque = rake_torque_circular(0.5 * self.diameter, self.rake_load)
-        return CircularFigures(
-            *self.settled(inside, outlets, feed), torque, torque * self.rake_speed / (0.5 * self.diameter)
-        )
+    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {
+            "diameter": self.diameter,
+            "depth": self.height,
+            "slope": self.bottom_slope,
+            "time": self.volume / feed.slurry_volume_flow / HOUR,
+        }
 
-    def measured(
-        self, inside: Settled, outlets: Skimmed, figures: CircularFigures, feed: Stream
-    ) -> dict[str, Any]:
-        weir = jnp.pi * self.diameter if self.weir_length is None else self.weir_length
-        return (
-            self.thinner(feed)
-            | loading(figures.overflow_rate, outlets.overflow, weir)
-            | {
-                "diameter": self.diameter,
-                "depth": self.height,
-                "slope": self.bottom_slope,
-                "time": self.volume / feed.slurry_volume_flow / HOUR,
-            }
-        )
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        area = self.settling_area()
+        return {"electric_power_rake": raked(area, CLARIFIER), "area_installed": area}
 
 
 @equipment("rectangular_clarifier", source="degremont2007; camp1946", title="Rectangular clarifier")
@@ -240,7 +183,7 @@ class RectangularClarifier(_Deep):
     """Rectangular clarifier with a traveling bridge or chain scraper.
 
     Practical limits: width to length about 1 to 6, depth 2.5 to 4 m, and a horizontal velocity that does not
-    scour the sludge. The weir is as long as four widths (fingers with two sides) unless its length is given.
+    scour the sludge.
     """
 
     length: Length
@@ -250,39 +193,33 @@ class RectangularClarifier(_Deep):
     tank_number: PositiveNumber | None = 3.0
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
-    _: KW_ONLY
-    weir_length: Length | None = None
 
-    limits: ClassVar[Limits] = (
-        AbstractBasin.limits
-        | LOADING
-        | {
-            "shape": Limit("length over width", 3.0, 6.5, "dimensionless", "degremont2007"),
-            "depth": Limit("depth", 2.5, 4.0, "m", "degremont2007"),
-            "velocity": Limit("horizontal velocity", 0.0, 0.025, "m/s", "metcalf2003"),
-            "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
-        }
-    )
+    limits: ClassVar[Limits] = AbstractBasin.limits | {
+        "shape": Limit("length over width", 3.0, 6.5, "dimensionless", "degremont2007"),
+        "depth": Limit("depth", 2.5, 4.0, "m", "degremont2007"),
+        "velocity": Limit("horizontal velocity", 0.0, 0.025, "m/s", "metcalf2003"),
+        "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
+    }
+
+    utilities: ClassVar[Utilities] = RAKED | AREA
 
     def settling_area(self) -> Any:
         return self.length * self.width
 
-    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
-        return self.settled(inside, outlets, feed)
-
     def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         flow = feed.slurry_volume_flow
-        weir = 4.0 * self.width if self.weir_length is None else self.weir_length
-        return (
-            self.thinner(feed)
-            | loading(figures.overflow_rate, outlets.overflow, weir)
-            | {
-                "shape": self.length / self.width,
-                "depth": self.height,
-                "velocity": flow / (self.width * self.height),
-                "time": self.volume / flow / HOUR,
-            }
-        )
+        return super().measured(inside, outlets, figures, feed) | {
+            "shape": self.length / self.width,
+            "depth": self.height,
+            "velocity": flow / (self.width * self.height),
+            "time": self.volume / flow / HOUR,
+        }
+
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {
+            "electric_power_rake": scraped(self.length, self.width),
+            "area_installed": self.settling_area(),
+        }
 
 
 _FLOWS = {
@@ -318,8 +255,7 @@ class Lamella(AbstractSettler):
         "reynolds": Limit("Reynolds number between the plates", 0.0, 800.0, "dimensionless", "degremont2007"),
     }
 
-    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
-        return self.settled(inside, outlets, feed)
+    utilities: ClassVar[Utilities] = AREA
 
     def plate_velocity(self, feed: Stream) -> Any:
         """Mean velocity of the water between the plates, m/s."""
@@ -339,7 +275,7 @@ class Lamella(AbstractSettler):
         return grade_efficiency(velocity, critical, self.tank_number)
 
     def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
-        return self.thinner(feed) | {
+        return super().measured(inside, outlets, figures, feed) | {
             "angle": jnp.rad2deg(self.plate_angle),
             "spacing": self.plate_spacing,
             "reynolds": self.plate_velocity(feed)
@@ -348,6 +284,9 @@ class Lamella(AbstractSettler):
             * feed.liquid_density
             / feed.liquid_viscosity,
         }
+
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {"area_installed": self.plate_number * self.plate_length * self.plate_width}
 
 
 @equipment("grit_chamber", source="camp1946; metcalf2003", title="Grit chamber")
@@ -370,15 +309,20 @@ class GritChamber(AbstractBasin):
         "time": Limit("residence time", 45.0, 90.0, "s", "metcalf2003"),
     }
 
-    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
-        return self.settled(inside, outlets, feed)
+    utilities: ClassVar[Utilities] = RAKED | AREA
 
     def settling_area(self) -> Any:
         return self.length * self.width
 
     def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         flow = feed.slurry_volume_flow
-        return self.thinner(feed) | {
+        return super().measured(inside, outlets, figures, feed) | {
             "velocity": flow / (self.width * self.height),
             "time": self.settling_area() * self.height / flow,
+        }
+
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {
+            "electric_power_rake": scraped(self.length, self.width),
+            "area_installed": self.settling_area(),
         }

@@ -19,6 +19,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.settling.formulas.flocculation import (
     aggregation_constant_shear,
     flocculation_ratio_tanks,
@@ -26,7 +27,8 @@ from granum.settling.formulas.flocculation import (
     settling_growth_fractal,
 )
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import driven
 
 FASTEST = 1e-9  # m³/s, a trickle for which a stay is still told
 LARGEST = 1e12  # grains per floc
@@ -90,6 +92,8 @@ class Flocculator(Unit):
         "held": Limit("solids gathered in the largest class", 0.0, 0.05, "dimensionless", "argaman1970"),
     }
 
+    utilities: ClassVar[Utilities] = {"electric_power_agitator": Utility("camp1943")}
+
     def inside(self, feed: Stream) -> FlocculatorFigures:
         flow = jnp.maximum(feed.slurry_volume_flow, FASTEST)
         stay = self.volume / flow
@@ -126,3 +130,8 @@ class Flocculator(Unit):
             "camp": figures.camp_number,
             "held": jnp.maximum(gathered, 0.0),
         }
+
+    def drawn(
+        self, inside: FlocculatorFigures, outlets: Flocculated, figures: FlocculatorFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {"electric_power_agitator": driven(figures.shaft_power)}

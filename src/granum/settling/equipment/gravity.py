@@ -172,12 +172,7 @@ class AbstractSettler(Unit):
         shares = over_axes(inside.sunk, feed), over_axes(inside.floated, feed)
         return skim(feed, *shares, self.underflow_concentration, self.skimmings_concentration)
 
-    @abc.abstractmethod
-    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Any:
-        """Figures of the data sheet."""
-
-    def settled(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
-        """Figures that all settlers share."""
+    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
         some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
         return Figures(
             inside.critical,
@@ -187,6 +182,5 @@ class AbstractSettler(Unit):
             concentration(outlets.overflow),
         )
 
-    def thinner(self, feed: Stream) -> dict[str, Any]:
-        """Number for the limit that all settlers share."""
+    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return {"thinner": concentration(feed) / self.underflow_concentration}

@@ -18,9 +18,11 @@ from granum.settling.equipment.gravity import (
     floats,
     over_axes,
 )
+from granum.settling.equipment.rakes import RAKED, THICKENER, raked
 from granum.settling.flux import limiting_flux_underflow
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA
 
 Settling = Annotated[Any, Law("settling_velocity")]
 
@@ -59,6 +61,8 @@ class Thickener(Unit):
         "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916"),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
     }
+
+    utilities: ClassVar[Utilities] = RAKED | AREA
 
     def inside(self, feed: Stream) -> Any:
         """Limiting flux and the layer that causes it."""
@@ -102,6 +106,9 @@ class Thickener(Unit):
             "floats": floating_share(feed),
             "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
         }
+
+    def drawn(self, inside: Any, outlets: Outlets, figures: ThickenerFigures, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_rake": raked(self.area, THICKENER), "area_installed": self.area}
 
     @classmethod
     def size(

@@ -44,7 +44,7 @@ def rise_velocity_api(
     return gravity * excess * droplet_diameter**2 / (18.0 * dynamic_viscosity)
 
 
-@formula(source="api421", equation=r"v_h = \min(15\,v_t,\ v_{h,\max})")
+@formula(source="api421", equation=r"U_x = \min(15\,v_t,\ U_{x,\max})")
 def horizontal_velocity_api(
     rise_velocity: Speed, horizontal_velocity_limit: Speed = HORIZONTAL_LIMIT
 ) -> Speed:
@@ -76,7 +76,7 @@ def turbulence_factor_api(velocity_ratio: Ratio) -> PositiveNumber:
     return y[i] + (y[i + 1] - y[i]) / (x[i + 1] - x[i]) * (r - x[i])
 
 
-@formula(source="api421", equation=r"L = F\,\frac{v_h}{v_t}\,h")
+@formula(source="api421", equation=r"L = F\,\frac{U_x}{v_t}\,H")
 def basin_length_api(horizontal_velocity: Speed, rise_velocity: Speed, height: Length) -> Length:
     """Length of an API separator: the ideal basin's length times the turbulence factor.
 
@@ -87,7 +87,12 @@ def basin_length_api(horizontal_velocity: Speed, rise_velocity: Speed, height: L
     return turbulence_factor_api(ratio) * ratio * height
 
 
-@formula(source="api421", equation=r"A_H = F\,\frac{Q}{v_t}", fitted={"turbulence_factor": (1.28, 1.74)})
+@formula(
+    source="api421",
+    equation=r"A_H = F\,\frac{Q}{v_t}",
+    fitted={"turbulence_factor": (1.28, 1.74)},
+    symbols={"basin_area": "A_H"},
+)
 def basin_area_api(
     volume_flow: VolumeFlow, rise_velocity: Speed, turbulence_factor: PositiveNumber = 1.74
 ) -> Area:

@@ -12,19 +12,22 @@ from granum.core.kinds import (
     Acceleration,
     Area,
     Density,
-    ForcePerLength,
     Fraction,
     Length,
     PositiveNumber,
     Series,
     Speed,
-    Torque,
     VolumeFlow,
 )
 from granum.particles.formulas.means import Shares, shares
 
 
-@formula(source="hazen1904; camp1946", equation=r"v_0 = \frac{Q}{A}", family="overflow_rate")
+@formula(
+    source="hazen1904; camp1946",
+    title="Overflow rate of a basin",
+    equation=r"v_0 = \frac{Q}{A}",
+    family="overflow_rate",
+)
 def overflow_rate_basin(volume_flow: VolumeFlow, area: Area) -> Speed:
     """Overflow rate of a basin: the velocity of the slowest particle that an ideal basin removes completely.
 
@@ -45,7 +48,7 @@ def basin_area(volume_flow: VolumeFlow, settling_velocity: Speed) -> Area:
     return volume_flow / settling_velocity
 
 
-@formula(source="camp1946", equation=r"U_x = \frac{Q}{l\,h}")
+@formula(source="camp1946", title="Horizontal velocity in a basin", equation=r"U_x = \frac{Q}{l\,H}")
 def horizontal_velocity_basin(volume_flow: VolumeFlow, width: Length, height: Length) -> Speed:
     """Mean horizontal velocity in a rectangular basin.
 
@@ -55,7 +58,7 @@ def horizontal_velocity_basin(volume_flow: VolumeFlow, width: Length, height: Le
     return volume_flow / (width * height)
 
 
-@formula(source="camp1946", equation=r"L = U_x\,\frac{h}{v_s}")
+@formula(source="camp1946", equation=r"L = U_x\,\frac{H}{v_s}")
 def basin_length(horizontal_velocity: Speed, height: Length, settling_velocity: Speed) -> Length:
     """Length of a rectangular basin in which a particle that enters at the surface just reaches the bottom.
 
@@ -91,7 +94,12 @@ def removal_efficiency_hazen(
     return -jnp.expm1(-tank_number * jnp.log1p(settling_velocity / (tank_number * overflow_rate)))
 
 
-@formula(source="camp1946", equation=r"E = \sum_i w_i \min\left(1, \frac{v_i}{v_0}\right)")
+@formula(
+    source="camp1946",
+    title="Removal efficiency of a basin by classes",
+    equation=r"E = \sum_i w_i \min\left(1, \frac{v_i}{v_0}\right)",
+    symbols={"class_fractions": "w_i", "class_velocities": "v_i", "overflow_rate": "v_0"},
+)
 def removal_efficiency_classes(
     class_velocities: Annotated[Speed, Series("classes")], class_fractions: Shares, overflow_rate: Speed
 ) -> Fraction:
@@ -130,21 +138,3 @@ def scour_velocity_camp(
     k, f, s = scour_constant, scour_friction_factor, particle_density / liquid_density
     buoyant = jnp.maximum(s - 1.0, 1e-12)
     return jnp.sqrt(8.0 * k * buoyant * gravity * particle_diameter / f)
-
-
-@formula(
-    source="boyle2012; ecomacchine",
-    equation=r"T = w R^2",
-    typical={"radius": (2.0, 30.0), "rake_load": (100.0, 500.0)},
-    output="rake_torque",
-    title="Torque of the rakes of a circular basin",
-)
-def rake_torque_circular(radius: Length, rake_load: ForcePerLength) -> Torque:
-    """Torque that turns two rake arms in the sludge of a circular basin, from the load on each meter of arm.
-
-    Makers of biological clarifiers count 20 kgf a meter, about 200 N/m, and a drive of 1.8 times that torque.
-
-    >>> round(rake_torque_circular(radius="10 m", rake_load=200.0))
-    20000
-    """
-    return rake_load * radius**2

@@ -27,7 +27,12 @@ def _check_angle(plate_angle: Any) -> None:
     )
 
 
-@formula(source="yao1970; metcalf2003", equation=r"A_p = N\,S\cos\alpha", typical=_ANGLES)
+@formula(
+    source="yao1970; metcalf2003",
+    equation=r"A_p = N\,S\cos\alpha",
+    typical=_ANGLES,
+    symbols={"area": "S"},
+)
 def lamella_area(plate_number: PositiveNumber, area: Area, plate_angle: Angle) -> Area:
     """Settling area of a plate pack: the projection of all plates on the horizontal.
 
@@ -41,7 +46,11 @@ def lamella_area(plate_number: PositiveNumber, area: Area, plate_angle: Angle) -
 
 
 @formula(
-    source="yao1970, eq. 9", equation=r"v_c = \frac{S_c\,v_0}{\sin\alpha + (L/b)\cos\alpha}", typical=_ANGLES
+    source="yao1970, eq. 9",
+    title="Settling velocity wholly removed, countercurrent plates",
+    equation=r"v_c = \frac{S_c\,v_0}{\sin\alpha + (L/b)\cos\alpha}",
+    typical=_ANGLES,
+    symbols={"velocity": "v_0"},
 )
 def critical_velocity_countercurrent(
     velocity: Speed,
@@ -63,7 +72,13 @@ def critical_velocity_countercurrent(
     return yao_shape_parameter * velocity / (jnp.sin(plate_angle) + ratio * jnp.cos(plate_angle))
 
 
-@formula(source="yao1970", equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha - \sin\alpha}", typical=_ANGLES)
+@formula(
+    source="yao1970",
+    title="Settling velocity wholly removed, cocurrent plates",
+    equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha - \sin\alpha}",
+    typical=_ANGLES,
+    symbols={"velocity": "v_0"},
+)
 def critical_velocity_cocurrent(
     velocity: Speed,
     plate_length: Length,
@@ -87,7 +102,13 @@ def critical_velocity_cocurrent(
     return jnp.where(reachable, yao_shape_parameter * velocity / jnp.where(reachable, sweep, 1.0), jnp.inf)
 
 
-@formula(source="yao1970", equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha}", typical=_ANGLES)
+@formula(
+    source="yao1970",
+    title="Settling velocity wholly removed, crosscurrent plates",
+    equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha}",
+    typical=_ANGLES,
+    symbols={"velocity": "v_0"},
+)
 def critical_velocity_crosscurrent(
     velocity: Speed,
     plate_length: Length,
@@ -105,7 +126,11 @@ def critical_velocity_crosscurrent(
     return yao_shape_parameter * velocity * plate_spacing / (plate_length * jnp.cos(plate_angle))
 
 
-@formula(source="yao1970", equation=r"\frac{L'}{b} = 0.058\,\frac{v_0 b}{\nu}")
+@formula(
+    source="yao1970",
+    equation=r"\frac{L'}{b} = 0.058\,\frac{v_0 b}{\nu}",
+    symbols={"velocity": "v_0"},
+)
 def relative_length_transition_yao(
     velocity: Speed, plate_spacing: Length, kinematic_viscosity: KinematicViscosity
 ) -> Ratio:

@@ -20,7 +20,11 @@ class Velocities(NamedTuple):
 _SVI = {"sludge_volume_index": (0.06, 0.25)}
 
 
-@formula(source="mohlman1934; apha2005, method 2710 D", equation=r"\mathrm{SVI} = \frac{V_{30}}{V\,X}")
+@formula(
+    source="mohlman1934; apha2005, method 2710 D",
+    equation=r"\mathrm{SVI} = \frac{V_{30}}{V\,X}",
+    symbols={"solids_concentration": "X"},
+)
 def sludge_volume_index(
     settled_volume: Volume, sample_volume: Volume, solids_concentration: Concentration
 ) -> VolumePerMass:
@@ -38,8 +42,10 @@ def sludge_volume_index(
 
 @formula(
     source="white1975; apha2005",
+    title="Diluted sludge volume index",
     equation=r"\mathrm{DSVI} = \frac{V_{30}}{V\,d\,X}",
     fitted={"settled_fraction": (0.0, 0.25)},
+    symbols={"solids_concentration": "X", "sludge_volume_index": r"\mathrm{DSVI}"},
 )
 def sludge_volume_index_diluted(
     settled_volume: Volume,
@@ -64,6 +70,7 @@ def sludge_volume_index_diluted(
     source="white1975",
     equation=r"\mathrm{SSVI} = \frac{h_{30}}{h_0\,X}",
     family="stirred_sludge_volume_index",
+    symbols={"solids_concentration": "X"},
 )
 def stirred_sludge_volume_index(
     settled_fraction: Fraction, solids_concentration: Concentration
@@ -122,7 +129,11 @@ def vesilind_velocity_hartel_popel(sludge_volume_index: VolumePerMass) -> Veloci
     )
 
 
-@formula(source="apha2005", equation=r"X_r = \frac{1}{\mathrm{SVI}}")
+@formula(
+    source="apha2005",
+    title="Underflow concentration from the sludge index",
+    equation=r"C_u = \frac{1}{\mathrm{SVI}}",
+)
 def underflow_concentration_index(
     sludge_volume_index: VolumePerMass, thickening_factor: PositiveNumber = 1.0
 ) -> Concentration:

@@ -31,7 +31,11 @@ _TANGENT = {"intercept_height": (0.2, 0.35), "interface_height": (0.05, 0.15)}
 _BETWEEN = {"underflow_concentration": (300.0, 600.0)}
 
 
-@formula(source="kynch1952", equation=r"C_i = C_0\,\frac{h_0}{h_i}")
+@formula(
+    source="kynch1952",
+    equation=r"C_i = C_0\,\frac{h_0}{h_i}",
+    symbols={"solids_concentration": "C_i"},
+)
 def solids_concentration_kynch(
     initial_concentration: Concentration, initial_height: Length, intercept_height: Length
 ) -> Concentration:
@@ -53,6 +57,7 @@ def solids_concentration_kynch(
     source="kynch1952",
     equation=r"v_i = \frac{h_i - h}{t}",
     typical={"intercept_height": (0.2, 0.35), "interface_height": (0.05, 0.15)},
+    symbols={"settling_velocity": "v_i"},
 )
 def settling_velocity_kynch(intercept_height: Length, interface_height: Distance, time: Time) -> Velocity:
     """Settling velocity of the layer just under the interface: the slope of the tangent to the settling
@@ -68,6 +73,12 @@ def settling_velocity_kynch(intercept_height: Length, interface_height: Distance
     source="kynch1952",
     equation=r"U = \frac{C_2 v_2 - C_1 v_1}{C_2 - C_1}",
     typical={"solids_concentration_above": (1.0, 5.0), "solids_concentration_below": (10.0, 50.0)},
+    symbols={
+        "solids_concentration_above": "C_1",
+        "settling_velocity_above": "v_1",
+        "solids_concentration_below": "C_2",
+        "settling_velocity_below": "v_2",
+    },
 )
 def shock_velocity_kynch(
     solids_concentration_above: Concentration,
@@ -89,7 +100,7 @@ def shock_velocity_kynch(
     return fall / jnp.where(gap == 0, jnp.nan, gap)
 
 
-@formula(source="coe1916", equation=r"\frac{A}{\dot m_s} = \frac{1/C - 1/C_u}{v}", typical=_BETWEEN)
+@formula(source="coe1916", equation=r"\frac{A}{\dot m_s} = \frac{1/C - 1/C_u}{v_s}", typical=_BETWEEN)
 def unit_area_coe_clevenger(
     solids_concentration: Concentration, settling_velocity: Speed, underflow_concentration: Concentration
 ) -> UnitArea:
@@ -104,7 +115,11 @@ def unit_area_coe_clevenger(
     return jnp.maximum(1.0 / solids_concentration - 1.0 / underflow_concentration, 0.0) / settling_velocity
 
 
-@formula(source="coe1916", equation=r"A = \dot m_s \max_i \frac{1/C_i - 1/C_u}{v_i}")
+@formula(
+    source="coe1916",
+    equation=r"A = \dot m_s \max_i \frac{1/C_i - 1/C_u}{v_i}",
+    symbols={"mass_flow": r"\dot m_s"},
+)
 def thickener_area_coe_clevenger(
     mass_flow: MassFlow,
     series_concentrations: Annotated[Concentration, Series("tests")],
@@ -130,7 +145,10 @@ def thickener_area_coe_clevenger(
 
 
 @formula(
-    source="coe1916; richardson2002, eq. 5.36", equation=r"A = \dot m_s \max_i \frac{U_i - W}{v_i\,\rho_l}"
+    source="coe1916; richardson2002, eq. 5.36",
+    title="Thickener area from liquid ratios",
+    equation=r"A = \dot m_s \max_i \frac{U_i - W}{v_i\,\rho_l}",
+    symbols={"mass_flow": r"\dot m_s"},
 )
 def thickener_area_liquid_ratio(
     mass_flow: MassFlow,
@@ -154,7 +172,12 @@ def thickener_area_liquid_ratio(
     return mass_flow * jnp.max(jnp.maximum(U - underflow_liquid_ratio, 0.0) / v) / liquid_density
 
 
-@formula(source="talmage1955", equation=r"h_u = \frac{C_0 h_0}{C_u}")
+@formula(
+    source="talmage1955",
+    title="Interface height at the underflow concentration",
+    equation=r"h_u = \frac{C_0 h_0}{C_u}",
+    symbols={"interface_height": "h_u"},
+)
 def interface_height_underflow(
     initial_concentration: Concentration, initial_height: Length, underflow_concentration: Concentration
 ) -> Length:
@@ -191,7 +214,12 @@ def unit_area_talmage_fitch(
     return underflow_time / (initial_concentration * initial_height)
 
 
-@formula(source="yoshioka1957", equation=r"G = \frac{v}{1/C - 1/C_u}", typical=_BETWEEN)
+@formula(
+    source="yoshioka1957",
+    title="Solids flux that a layer lets pass",
+    equation=r"G = \frac{v_s}{1/C - 1/C_u}",
+    typical=_BETWEEN,
+)
 def solids_flux_layer(
     solids_concentration: Concentration, settling_velocity: Speed, underflow_concentration: Concentration
 ) -> MassFlux:

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import reduce
 from operator import add
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Fraction, Mass, MassFlow, Power, Temperature, Time
+from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.turnover import Turnover
-from granum.streams.units import Dynamic, Unit
+from granum.streams.units import Dynamic, Unit, Utilities
+from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated, suspended
 
 
 class Single(NamedTuple):
@@ -91,12 +93,18 @@ class Heater(Unit):
 
     temperature: Temperature
 
+    utilities: ClassVar[Utilities] = HEATED | COOLED
+
     def outlets(self, inside: None, feed: Stream) -> Heated:
         product = feed.replace(temperature=self.temperature)
         return Heated(product, product.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: None, outlets: Heated, feed: Stream) -> HeaterFigures:
         return HeaterFigures(outlets.heat_duty, outlets.product.temperature)
+
+    def drawn(self, inside: None, outlets: Heated, figures: HeaterFigures, feed: Stream) -> dict[str, Any]:
+        hot, cold = outlets.product.temperature, jnp.minimum(feed.temperature, outlets.product.temperature)
+        return heated(outlets.heat_duty, hot) | cooled(outlets.heat_duty, cold)
 
 
 class TankFigures(NamedTuple):
@@ -130,12 +138,18 @@ class StirredTank(Unit, Dynamic):
 
     mass: Mass
 
+    utilities: ClassVar[Utilities] = STIRRED
+
     def outlets(self, inside: None, feed: Stream) -> Single:
         return Single(feed)
 
     def figures(self, inside: None, outlets: Single, feed: Stream) -> TankFigures:
         flow = feed.solid_flow + feed.liquid_flow
         return TankFigures(self.mass / jnp.where(flow > 0, flow, 1.0), outlets.product.temperature)
+
+    def drawn(self, inside: None, outlets: Single, figures: TankFigures, feed: Stream) -> dict[str, Any]:
+        density = safe_divide(feed.solid_flow + feed.liquid_flow, feed.slurry_volume_flow, 1000.0)
+        return {"electric_power_agitator": suspended(feed, self.mass / density)}
 
     def initial_holdup(self, mixture: Any) -> Contents:
         first = jnp.zeros(len(mixture.liquids)).at[0].set(1.0) * self.mass

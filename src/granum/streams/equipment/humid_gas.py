@@ -18,7 +18,8 @@ from granum.core.limits import Limit
 from granum.numerics import find_root
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import COOLED, HEATED, cooled, heated
 
 COLDEST = 200.0
 UNSOLVED = (
@@ -36,7 +37,7 @@ def _above_freezing(source: str) -> Limits:
     return {"liquid": Limit("temperature above the freezing point", 0.0, math.inf, "delta_degC", source)}
 
 
-class Mixed(NamedTuple):
+class MixedGas(NamedTuple):
     """Mixed gas; its liquid is fog."""
 
     product: Stream
@@ -63,13 +64,13 @@ class HumidMixer(Unit):
 
     limits: ClassVar[Limits] = _above_freezing("ashrae2017")
 
-    def outlets(self, inside: None, **inlets: Stream) -> Mixed:
+    def outlets(self, inside: None, **inlets: Stream) -> MixedGas:
         mixed = reduce(add, inlets.values())
         product = HumidMixture(mixed.mixture).at_own_enthalpy(mixed)
         unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
-        return Mixed(product)
+        return MixedGas(product)
 
-    def figures(self, inside: None, outlets: Mixed, **inlets: Stream) -> HumidFigures:
+    def figures(self, inside: None, outlets: MixedGas, **inlets: Stream) -> HumidFigures:
         gas = outlets.product
         humid = HumidMixture(gas.mixture)
         return HumidFigures(
@@ -81,7 +82,7 @@ class HumidMixer(Unit):
         )
 
     def measured(
-        self, inside: None, outlets: Mixed, figures: HumidFigures, **inlets: Stream
+        self, inside: None, outlets: MixedGas, figures: HumidFigures, **inlets: Stream
     ) -> dict[str, Any]:
         return {
             "liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature
@@ -128,6 +129,8 @@ class CondenserCooler(Unit):
 
     limits: ClassVar[Limits] = _above_freezing("ashrae2017")
 
+    utilities: ClassVar[Utilities] = HEATED | COOLED
+
     def outlets(self, inside: None, gas: Stream) -> Cooled:
         out = HumidMixture(gas.mixture).at_temperature(gas, self.temperature)
         return Cooled(*_drained(out), out.enthalpy_flow - gas.enthalpy_flow)
@@ -140,6 +143,9 @@ class CondenserCooler(Unit):
             "liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature
         }
 
+    def drawn(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
+        return heated(outlets.heat_duty, self.temperature) | cooled(outlets.heat_duty, self.temperature)
+
 
 @equipment("dehumidifying_coil", source="ashrae2017, ch. 1; mcquiston2005", title="Dehumidifying coil")
 class DehumidifyingCoil(Unit):
@@ -151,6 +157,8 @@ class DehumidifyingCoil(Unit):
     coil_bypass_fraction: Fraction = 0.1
 
     limits: ClassVar[Limits] = _above_freezing("mcquiston2005")
+
+    utilities: ClassVar[Utilities] = COOLED
 
     def outlets(self, inside: None, gas: Stream) -> Cooled:
         share = 1.0 - self.coil_bypass_fraction
@@ -172,6 +180,9 @@ class DehumidifyingCoil(Unit):
             "liquid": outlets.condensate.temperature
             - HumidMixture(outlets.condensate.mixture).freezing_temperature
         }
+
+    def drawn(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
+        return cooled(outlets.heat_duty, self.coil_temperature)
 
 
 class Humidified(NamedTuple):

@@ -1,0 +1,108 @@
+"""What the page needs to build a line: the operations on the text of a case, the equipment to choose from,
+the substances of the library.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any
+
+from granum.cases import building
+from granum.core.errors import InputError, unknown_name
+from granum.core.i18n import _, current_language
+from granum.core.index import entries
+from granum.core.words import plain
+from granum.flowsheet.symbols import symbol_of
+from granum.materials.library import session
+
+OPERATIONS: dict[str, Callable[..., str]] = {name: getattr(building, name) for name in building.__all__}
+
+
+def built(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
+    """The text of a case after an operation of ``granum.cases.building``."""
+    if operation not in OPERATIONS:
+        raise unknown_name(_("Operation"), operation, OPERATIONS)
+    function = OPERATIONS[operation]
+    takes_case = "case" in inspect.signature(function).parameters
+    words = {"case": case, **arguments} if takes_case else dict(arguments)
+    try:
+        inspect.signature(function).bind(**words)
+    except TypeError as problem:
+        raise InputError(
+            _("'{operation}' is asked for in the wrong way: {reason}.").format(
+                operation=operation, reason=problem
+            )
+        ) from None
+    for name, value in arguments.items():
+        fits = isinstance(value, (str, dict)) or (
+            isinstance(value, list) and all(isinstance(x, str) for x in value)
+        )
+        if not fits:
+            raise InputError(
+                _("'{name}' cannot take this value: {value}.").format(name=name, value=str(value)[:60]),
+                name=name,
+            )
+    return function(**words)
+
+
+def palette() -> list[dict[str, str]]:
+    """Every piece of equipment, with its symbol."""
+    return _palette(current_language())
+
+
+@cache
+def _palette(_language: str) -> list[dict[str, str]]:
+    return [
+        {
+            "model": c.key,
+            "domain": c.domain,
+            "title": c.title,
+            "summary": c.summary,
+            "other_names": f"{c.english_title} {c.french_title}",
+            "symbol": symbol_of(c.key),
+        }
+        for c in entries().values()
+        if c.sort == "equipment"
+    ]
+
+
+def substances() -> dict[str, list[dict[str, Any]]]:
+    """What a line can be made of, by the part it plays, in the current language."""
+    return _substances(current_language())
+
+
+@cache
+def _substances(language: str) -> dict[str, list[dict[str, Any]]]:
+    known = session()
+
+    def labelled(name: str, entry: Any) -> dict[str, Any]:
+        return {"value": name, "label": entry.fr if language == "fr" and entry.fr else name}
+
+    def ordered(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        return sorted(rows, key=lambda row: plain(row["label"]))
+
+    fluids, solids = known.entries("fluid"), known.entries("solid")
+    solutes = [
+        labelled(name.partition(" in ")[0], entry)
+        | {
+            "solvent": entry.solvent,
+            "crystals": [branch.crystal for branch in entry.branches],
+            "complete": entry.viscosity is not None
+            and all(branch.heat_of_solution is not None for branch in entry.branches),
+        }
+        for name, entry in known.entries("solute").items()
+    ]
+    return {
+        "liquids": ordered([labelled(n, e) for n, e in fluids.items() if e.liquid_density is not None]),
+        "solutes": ordered(solutes),
+        "solids": ordered(
+            [
+                labelled(n, e)
+                for n, e in solids.items()
+                if e.density is not None and e.heat_capacity is not None
+            ]
+        ),
+        "gases": ordered([labelled(n, e) for n, e in fluids.items()]),
+    }

@@ -1,0 +1,79 @@
+"""What a student answers: right, a known slip, or wrong, said in words."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from granum.app import exercises
+from granum.app.exercises.numbers import Numbers
+from granum.app.wording import told
+from granum.core import registry
+from granum.core.conversion import convert
+from granum.core.errors import GranumError
+from granum.core.i18n import _
+from granum.core.units import format_number, from_si, pretty_unit
+
+TOLERANCE = 0.02
+FACTORS = (60.0, 3600.0)
+
+
+def tolerance_of(step: dict[str, Any], right: float) -> float:
+    """How far an answer may lie from the calculated one, in the unit that is asked for: a share of it, and at
+    least what the course itself is off by reading or rounding.
+    """
+    return max(step.get("tolerance", TOLERANCE) * abs(right), step["expected"].get("within", 0.0))
+
+
+def marked(name: str, number: int, seed: int | None, answer: str) -> dict[str, Any]:
+    """The verdict on an answer typed as a quantity: ``right``, ``wrong``, or ``unclear`` when it cannot be
+    read, with a sentence that says why.
+    """
+    step = exercises.step_of(name, number)
+    asked = step["expected"]
+    parameter = registry.find(step["card"]).card.parameter(asked["output"])
+    assert parameter.kind is not None
+    unit = asked["unit"] or "dimensionless"
+    try:
+        given = float(from_si(convert(answer, parameter), unit, parameter.kind))
+    except GranumError as fault:
+        return {"verdict": "unclear", "text": told(fault.as_json())["message"]}
+    numbers = Numbers(exercises.exercise(name), seed)
+    right = numbers.calculated(number)
+    shown = f"{format_number(right)} {pretty_unit(asked['unit'])}".strip()
+    if abs(given - right) <= tolerance_of(step, right):
+        return {"verdict": "right", "text": _("Right: {value} when calculated.").format(value=shown)}
+    for slip, value in slips(numbers, number, right):
+        if abs(given - value) <= 0.015 * abs(value):
+            return {"verdict": "wrong", "text": exercises.in_language(slip["says"])}
+    return {"verdict": "wrong", "text": _told(given, right, tolerance_of(step, right))}
+
+
+def slips(numbers: Numbers, place: int, right: float) -> list[tuple[dict[str, Any], float]]:
+    """The declared slips of a step with the answers that they lead to."""
+    return [
+        (
+            slip,
+            numbers.worth(slip["value"], right)[0]
+            if "value" in slip
+            else numbers.calculated(place, slip.get("inputs"), slip.get("card", ""), slip.get("output", "")),
+        )
+        for slip in numbers.exercise["steps"][place].get("slips", [])
+    ]
+
+
+def _told(given: float, right: float, tolerance: float) -> str:
+    """A sentence on a wrong answer that no declared slip explains."""
+    if right != 0.0 and given != 0.0:
+        ratio = given / right
+        share = max(tolerance / abs(right), 1e-3)
+        if ratio < 0.0 and abs(ratio + 1.0) <= share:
+            return _("The size is right, the sign is not.")
+        power = round(math.log10(abs(ratio)))
+        factors = [10.0 ** abs(power), *FACTORS]
+        for factor in factors:
+            if factor > 1.0 and abs(ratio / factor - 1.0) <= share:
+                return _("{factor} times too large: look at the units.").format(factor=format_number(factor))
+            if factor > 1.0 and abs(ratio * factor - 1.0) <= share:
+                return _("{factor} times too small: look at the units.").format(factor=format_number(factor))
+    return _("Not this: too large.") if given > right else _("Not this: too small.")

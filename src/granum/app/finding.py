@@ -1,0 +1,77 @@
+"""One search over everything the app holds: cards, example lines, exercises and pages to read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+from granum.app import exercises
+from granum.app.reading import page
+from granum.app.shipped import description_of, examples, pages, title_of
+from granum.core.i18n import LANGUAGES, current_language, language
+from granum.core.index import entries
+from granum.core.search import NAME, TEXT, TITLE, Document, Finder, card_documents, document
+
+SHOWN = 40  # hits
+BEHIND = 0.9  # what is not a card itself
+FOREIGN = 0.75  # a page in the other language
+
+
+def _lines() -> Iterator[Document]:
+    for name in examples():
+        said: list[tuple[float, str]] = []
+        for code in LANGUAGES:
+            with language(code):
+                said += [(TITLE, title_of(name)), (TEXT, description_of(name))]
+        yield document("line", name, [*said, (NAME, name.replace("/", " ").removesuffix(".toml"))], BEHIND)
+
+
+def _exercises() -> Iterator[Document]:
+    for one in exercises.declared()["exercise"]:
+        said = [(TITLE, text) for text in one["title"].values()]
+        said += [(NAME, text) for step in one["steps"] for text in step["ask"].values()]
+        said += [(TEXT, text) for text in one["statement"].values()]
+        yield document("exercise", one["id"], said, BEHIND)
+
+
+def _pages(code: str) -> Iterator[Document]:
+    for name in pages():
+        found = page(name)
+        worth = BEHIND if found.language == code else BEHIND * FOREIGN
+        said = [(TITLE, found.title), *((NAME, heading) for heading in found.headings)]
+        yield document("page", name, [*said, (TEXT, found.text[:2000])], worth)
+
+
+@cache
+def _finder(code: str) -> Finder:
+    return Finder([*card_documents(), *_lines(), *_exercises(), *_pages(code)])
+
+
+def _told(kind: str, key: str) -> dict[str, str]:
+    """What a hit shows: title, one line, and what sort of thing it is."""
+    if kind == "card":
+        card = entries()[key]
+        told = card.summary.replace("``", "")
+        return {"sort": card.sort, "domain": card.domain, "title": card.title, "summary": told}
+    if kind == "line":
+        return {"sort": "line", "domain": "", "title": title_of(key), "summary": description_of(key)}
+    if kind == "exercise":
+        one = next(e for e in exercises.declared()["exercise"] if e["id"] == key)
+        code = current_language()
+        return {"sort": "exercise", "domain": "", "title": one["title"][code], "summary": one["source"]}
+    return {
+        "sort": "page",
+        "domain": "",
+        "title": page(key).title,
+        "summary": " · ".join(page(key).headings[:4]),
+    }
+
+
+def found(text: str, limit: int = SHOWN) -> list[dict[str, str]]:
+    """What a text means, the best first: ``{"sort", "key", "domain", "title", "summary"}``.
+
+    >>> found("vacuum drum")[0]["key"]
+    'filtration.rotary_vacuum_drum'
+    """
+    hits = _finder(current_language()).search(text[:200], limit)
+    return [{"key": hit.key} | _told(hit.kind, hit.key) for hit in hits]

@@ -1,0 +1,76 @@
+"""Pages of the documentation, read in the app: Markdown as HTML, links between them kept."""
+
+from __future__ import annotations
+
+import html
+import re
+from functools import cache
+from typing import Any, NamedTuple
+from urllib.parse import quote
+
+from markdown_it import MarkdownIt
+
+from granum.app.shipped import pages
+from granum.core.errors import unknown_name
+from granum.core.i18n import _, language
+from granum.core.index import entries
+
+_HEADING = re.compile(r"^#+\s+(.+)$", re.MULTILINE)
+_FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
+_MADE = re.compile(r"^\[\[(\w+)[^\]\n]*\]\]\s*$", re.MULTILINE)  # plots and tables that the site makes
+_CARD = re.compile(r"\[\[card (\S+)\]\]")
+_LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
+
+
+class Page(NamedTuple):
+    """A page of the documentation."""
+
+    name: str
+    title: str
+    language: str
+    headings: tuple[str, ...]
+    text: str
+
+
+@cache
+def page(name: str) -> Page:
+    """A page by name."""
+    if name not in pages():
+        raise unknown_name(_("Page"), name, pages())
+    text = pages()[name].read_text(encoding="utf-8")
+    headings = [found.replace("`", "") for found in _HEADING.findall(_FENCE.sub("", text))]
+    code = "fr" if name.startswith("fr/") else "en"
+    return Page(name, headings[0] if headings else name, code, tuple(headings[1:]), text)
+
+
+def _link_to(name: str, label: str, target: str) -> str:
+    """A link of a page as one of the app; what the app does not hold stands as text."""
+    if re.match(r"https?://", target):
+        return f"[{label}]({target})"
+    parts = [*name.split("/")[:-1], *target.partition("#")[0].removesuffix(".md").split("/")]
+    while ".." in parts[1:]:
+        at = parts.index("..", 1)
+        del parts[at - 1 : at + 1]
+    found = "/".join(parts)
+    return f"[{label}](#/read/{quote(found, safe='')})" if found in pages() else label
+
+
+def as_html(name: str) -> dict[str, Any]:
+    """A page for reading: ``{"title", "language", "html"}``."""
+    found = page(name)
+    known = entries()
+
+    def of_card(match: re.Match[str]) -> str:
+        card = known.get(match[1])
+        with language(found.language):
+            return f"[{card.title}](#/find/{quote(match[1], safe='')})" if card else ""
+
+    text = _MADE.sub("", _CARD.sub(of_card, found.text))
+    text = _LINK.sub(lambda m: m[0] if m[2].startswith("#/") else _link_to(found.name, m[1], m[2]), text)
+    shown = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
+    shown = shown.replace("<table>", '<div class="wide" tabindex="0" role="region"><table>')
+    return {
+        "title": html.unescape(found.title),
+        "language": found.language,
+        "html": shown.replace("</table>", "</table></div>"),
+    }

@@ -1,0 +1,60 @@
+"""What comes with the package besides the program: example lines and pages of the documentation."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+
+import granum
+from granum.core.i18n import _
+
+
+def _folder(name: str) -> Path:
+    root = Path(str(files("granum") / name))
+    # installed, or in a source tree
+    return root if root.is_dir() else Path(granum.__file__).parents[2] / name
+
+
+def examples_folder() -> Path:
+    """Where the examples stand."""
+    return _folder("examples")
+
+
+@cache
+def examples() -> dict[str, Path]:
+    """Case files of the examples that hold a line, by their place in the folder."""
+    root = examples_folder()
+    found = sorted(root.rglob("*.toml")) if root.is_dir() else []
+    return {str(p.relative_to(root)): p for p in found if "[units." in p.read_text(encoding="utf-8")}
+
+
+@cache
+def _told(name: str) -> tuple[str, str]:
+    raw = tomllib.loads(examples()[name].read_text(encoding="utf-8"))
+    return str(raw.get("title", "")), str(raw.get("description", ""))
+
+
+def title_of(name: str) -> str:
+    """The title of an example in the current language."""
+    return _(_told(name)[0])
+
+
+def description_of(name: str) -> str:
+    """The description of an example in the current language."""
+    return _(_told(name)[1])
+
+
+@cache
+def pages() -> dict[str, Path]:
+    """Guides, theory and errata by name, as ``guides/first-hour``."""
+    root = _folder("docs")
+    found = [
+        *root.glob("guides/*.md"),
+        *root.glob("theory/*.md"),
+        *root.glob("fr/*.md"),
+        *root.glob("errata.md"),
+    ]
+    names = {place.relative_to(root).with_suffix("").as_posix(): place for place in sorted(found)}
+    return {name: place for name, place in names.items() if not name.endswith("index")}

@@ -1,0 +1,110 @@
+// A piece of equipment alone: its parameters and what enters, solved as a line of its own; handed to Lines when wanted.
+import {
+  html,
+  t,
+  ask,
+  link,
+  useAnswer,
+  useState,
+  useEffect,
+  replaceLink,
+  settings,
+  Working,
+} from './core.js';
+import { CALCULATED, Calculate } from './calculate.js';
+import { Finder, useCards } from './cards.js';
+import { Field } from './form.js';
+import { keepDraft, packed } from './drafts.js';
+import { StreamTable } from './line_streams.js';
+import { Utilities } from './utilities.js';
+
+const SHOWN = (c) => CALCULATED(c) || c.sort === 'equipment';
+
+/** Calculate, with the equipment among its cards. */
+export function Desk({ state }) {
+  const cards = useCards(SHOWN);
+  const card = cards?.find((c) => c.card === state.key);
+  if (card?.sort !== 'equipment' && (cards || !state.key))
+    return html`<${Calculate} key="calculate" state=${state} keep=${SHOWN} />`;
+  return html`<main class="three alone" id="main"><${Finder} page="calculate" current=${state.key} cards=${cards} />
+    ${card ? html`<${Work} key=${`${state.key} ${settings.language} ${settings.units} ${state.visit}`} card=${card} given=${state.values} />` : html`<section aria-busy="true"><p class="dim">${t('The list of cards is on its way…')}</p></section><section />`}</main>`;
+}
+
+function Work({ card, given }) {
+  const [values, setValues] = useState(given);
+  const [past, setPast] = useState([]);
+  const words = JSON.stringify(values);
+  useEffect(() => replaceLink('calculate', card.card, values), [words]);
+  const form = useAnswer(
+    (signal) => ask(`/api/alone/${card.card}`, values, { signal }),
+    [words],
+    past.length ? 250 : 0,
+  );
+  const text = form.data?.case;
+  const answer = useAnswer(
+    (signal) => (text ? ask('/api/run', { case: text, place: '' }, { signal }) : Promise.resolve(null)),
+    [text],
+    0,
+  );
+  const set = (name, value) => {
+    setPast([...past.slice(-50), values]);
+    setValues({ ...values, [name]: value });
+  };
+  const problem = form.error || answer.error;
+  const busy = form.pending || answer.pending;
+  const wrong = problem?.details?.name;
+  const field = (p) =>
+    html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
+  const needed = form.data?.parameters.filter((p) => p.required || form.data.values[p.name] !== undefined);
+  const more = form.data?.parameters.filter((p) => !needed.includes(p));
+  const toLines = async (e) => {
+    e.preventDefault();
+    const place = `computer:${card.card.split('.')[1]}.toml`;
+    keepDraft(place, text);
+    location.hash = link('lines', place, { case: await packed(text) });
+  };
+  return html`<section aria-label=${t('Enter')} aria-busy=${String(!form.data && !form.error)}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
+      ${
+        form.data &&
+        html`<form onSubmit=${(e) => e.preventDefault()}>${needed.map(field)}
+        ${more.length > 0 && html`<details class="more"><summary>${t('More ({count})', { count: more.length })}</summary>${more.map(field)}</details>`}
+        ${form.data.groups.map((group, i) => html`<details class="inlet" key=${group.name} open=${i === 0} data-inlet=${group.name}><summary>${group.title}</summary>${group.parameters.map(field)}</details>`)}</form>
+        ${form.data.without.length > 0 && html`<p class="small dim">${t('Without: {names}. In a line these inlets can be used too.', { names: form.data.without.join(', ') })}</p>`}`
+      }
+      <div class="row"><button class="button" disabled=${!past.length} onClick=${() => {
+        setValues(past.at(-1));
+        setPast(past.slice(0, -1));
+      }}>${t('Undo')}</button>
+      <button class="button" onClick=${() => {
+        setPast([...past.slice(-50), values]);
+        setValues({});
+      }}>${t('Example values')}</button>
+      <a class="button" href=${link('lines')} onClick=${toLines} aria-disabled=${String(!text)}>${t('Put it in a line')}</a></div></section>
+    <section aria-label=${t('Believe')}>
+      <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
+      <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />
+      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text} />`}</div></section>`;
+}
+
+/** Streams by the ports of the one machine. */
+const ports = (rows) =>
+  Object.fromEntries(rows.map(([name]) => [name, name.split('.').at(-1).replaceAll('_', ' ')]));
+
+function Outcome({ data, form, text }) {
+  const [unit] = Object.values(data.units);
+  const failed = unit.checks.filter((c) => !c.ok);
+  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Results')}><table class="answers"><tbody>${Object.entries(unit.results).map(([name, row]) => html`<tr><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n" data-figure=${name}><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>
+    <div class=${failed.length || data.flags.length ? 'caution' : 'ok'} data-belief=${failed.length || data.flags.length ? 'caution' : 'ok'}>${data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`)}${failed.map((c) => html`<p class="mark">▲ ${c.name}: ${c.text} (${c.allowed})</p>`)}
+      ${!failed.length && !data.flags.length && html`<p class="mark">● ${t('within its practical limits')}</p>`}</div>
+    ${unit.checks.length > 0 && html`<details open><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${unit.checks.map((c) => html`<tr class=${c.ok ? '' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.text}</td><td class="dim">${c.allowed}</td></tr>`)}</tbody></table></div></details>`}
+    <${StreamTable} table=${data.stream_table} text=${text} labels=${ports(data.stream_table.rows)} />
+    <${Utilities} table=${data.utility_table} />
+    <p class="small dim">${data.audit.text}</p>
+    ${
+      form &&
+      html`<h2>${t('Source')}</h2><p class="small">${form.citation}</p>
+    <details><summary>${t('The same in Python')}</summary><pre>${form.python}</pre></details>
+    <details><summary>${t('The same on the command line')}</summary><pre>${form.command}</pre></details>
+    <details><summary>${t('About')}</summary><pre lang="en">${form.doc}</pre></details>`
+    }`;
+}

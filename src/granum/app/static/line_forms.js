@@ -1,0 +1,131 @@
+// Forms of a line: its substances, feeds, equipment and design specifications.
+import { html, t, useState, useEffect } from './core.js';
+import { Field } from './form.js';
+import { Quantity } from './quantity.js';
+import { Choice, useSubstances, named } from './line_new.js';
+
+/** Feeds and equipment, each a closed form that opens when asked. */
+export function Forms({ form, typedIn, build, problem, message }) {
+  const open = (name) => problem?.unit === name;
+  const wrong = (name) => (open(name) ? problem.name : '');
+  return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${form.ends.targets.find((end) => end.value === item.to)?.label || pretty(item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} /></details>`)}
+    ${group(t('Equipment'), form.units, (name, item) => html`<details key=${'units' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.title || item.model}</span></summary><${ItemForm} table="units" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong(name)} message=${message} /></details>`)}`;
+}
+export const pretty = (name) => name.replaceAll('_', ' ').replace('.', ' · ');
+const group = (label, items, make) =>
+  Object.keys(items).length > 0 &&
+  html`<h2>${label}</h2>${Object.entries(items).map(([name, item]) => make(name, item))}`;
+
+/** The form of one unit or feed. */
+export function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'form' }) {
+  const [typed, setTyped] = useState({});
+  useEffect(
+    () =>
+      setTyped((before) =>
+        Object.fromEntries(Object.entries(before).filter(([key]) => typedIn.waits(table, name, key))),
+      ),
+    [JSON.stringify(item.values)],
+  );
+  const set = (key, value) => {
+    setTyped((before) => ({ ...before, [key]: value }));
+    typedIn.later(table, name, key, value);
+  };
+  if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
+  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}
+    ${item.limits?.length > 0 && html`<details data-limits=${name}><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${item.limits.map((limit) => html`<tr><td>${limit.name}</td><td>${limit.allowed}</td><td class="dim">${limit.source}</td></tr>`)}</tbody></table></div></details>`}</form>`;
+}
+
+/** A feed: where it goes, in which form it is given, its flows, shares and sizes. */
+export function FeedForm({ name, item, form, typedIn, build, spot = 'form' }) {
+  return html`<div class="ports"><${EndMenu} id=${`to-${spot}-${name}`} label=${t('goes to')} value=${item.to} ends=${form.ends.targets} none=${t('nowhere yet')} pick=${(end) => (end ? build('connect', { origin: name, target: end }) : build('disconnect', { end: name }))} />
+    ${form.substances.solids.length > 0 && form.substances.liquids.length > 0 && html`<label class="end"><span>${t('given as')}</span><select id=${`given-${spot}-${name}`} value=${item.form} onChange=${(e) => build('form_of_feed', { feed: name, form: e.target.value })}><option value="phases" selected=${item.form === 'phases'}>${t('flows of solid and liquid')}</option><option value="totals" selected=${item.form === 'totals'}>${t('whole flow and share of solids')}</option></select></label>`}</div>
+    <${ItemForm} table="feeds" name=${name} item=${item} typedIn=${typedIn} spot=${spot} />
+    ${item.rests?.map((rest) => html`<p class="small dim">${rest}</p>`)}`;
+}
+
+/** A menu of the places where a stream may come from or go to; what is taken already says so. */
+export function EndMenu({ id, label, value, ends, none, pick, own = '' }) {
+  const free = ends.filter((end) => !end.taken || end.value === value);
+  const taken = ends.filter((end) => end.taken && end.value !== value && end.value.split('.')[0] !== own);
+  const option = (end) =>
+    html`<option value=${end.value} selected=${end.value === value}>${end.label}</option>`;
+  return html`<label class="end" for=${id}><span>${label}</span><select id=${id} value=${value} onChange=${(e) => pick(e.target.value)}><option value="" selected=${!value}>${none}</option>
+    ${free.filter((end) => end.value.split('.')[0] !== own || end.value === value).map(option)}
+    ${taken.length > 0 && html`<optgroup label=${t('in use: a divider or mixer is put in')}>${taken.map(option)}</optgroup>`}</select></label>`;
+}
+
+/** What the line is made of: each phase as a list that one takes from and adds to. */
+export function Substances({ form, build }) {
+  const known = useSubstances();
+  const { liquids, solids, gases } = form.substances;
+  const phases = [
+    ['liquids', t('Liquids: solvent first, then what is dissolved in it'), liquids],
+    ['solids', t('Solids'), solids],
+    ['gases', t('Gases and vapors'), gases],
+  ];
+  const set = (phase, names) => build('choose_substances', { liquids, solids, gases, [phase]: names });
+  return html`<details data-substances><summary>${t('Substances')} <span class="dim">${[...new Set([...liquids, ...solids, ...gases])].map((name) => named(known, name)).join(', ')}</span></summary>
+    ${phases.map(
+      ([phase, label, names]) =>
+        html`<div class="substances"><p class="small dim">${label}</p><div class="row">${names.map(
+          (name) =>
+            html`<span class="chip">${named(known, name)} <button aria-label=${t('Remove {name}', { name: named(known, name) })} onClick=${() =>
+              set(
+                phase,
+                names.filter((other) => other !== name),
+              )}>×</button></span>`,
+        )}
+        <${Choice} id=${'add-' + phase} label=${t('Add')} quiet rows=${offered(known, phase, liquids[0])} value="" pick=${(name) => name && set(phase, [...names, name])} /></div></div>`,
+    )}</details>`;
+}
+
+function offered(known, phase, solvent) {
+  if (!known) return [];
+  if (phase !== 'liquids') return known[phase];
+  return [...known.liquids, ...known.solutes.filter((s) => s.solvent === solvent)];
+}
+
+/** Design specifications: what is sought, which result it is to give, and where to look. */
+export function Specifications({ form, build }) {
+  const units = Object.entries(form.units).filter(([, unit]) => unit.parameters.length);
+  const inputs = units.flatMap(([name, unit]) =>
+    unit.parameters
+      .filter((p) => p.kind && !p.series && unit.values[p.name] !== undefined)
+      .map((p) => ({
+        value: `${name}.${p.name}`,
+        label: `${pretty(name)}: ${p.label}`,
+        p,
+        now: unit.values[p.name],
+      })),
+  );
+  const figures = Object.entries(form.units).flatMap(([name, unit]) =>
+    (unit.figures || []).map((p) => ({
+      value: `${name}.${p.name}`,
+      label: `${pretty(name)}: ${p.label}`,
+      p,
+    })),
+  );
+  const [draft, setDraft] = useState({ vary: '', so_that: '', equals: '', lower: '', upper: '' });
+  const set = (part) => setDraft((before) => ({ ...before, ...part }));
+  const input = inputs.find((one) => one.value === draft.vary);
+  const figure = figures.find((one) => one.value === draft.so_that);
+  const label = (list, path) => list.find((one) => one.value === path)?.label || pretty(path);
+  const menu = (id, text, list, value, pick) =>
+    html`<label class="end" for=${id}><span>${text}</span><select id=${id} value=${value} onChange=${(e) => pick(e.target.value)}><option value="">—</option>${list.map((one) => html`<option value=${one.value} selected=${one.value === value}>${one.label}</option>`)}</select></label>`;
+  const amount = (id, text, p, word) =>
+    html`<div class="end"><label for=${id}>${text}</label><div class="entry"><${Quantity} key=${id + p.name} p=${{ ...p, name: word }} id=${id} text=${draft[word]} label=${text} onChange=${(value) => set({ [word]: value })} /></div></div>`;
+  const whole = draft.vary && draft.so_that && draft.equals && draft.lower && draft.upper;
+  return html`<details data-specifications><summary>${t('Design specifications')} <span class="dim">${Object.keys(form.specifications).length || ''}</span></summary>
+    ${Object.entries(form.specifications).map(
+      ([name, spec]) =>
+        html`<p class="small" data-specification=${name}>${t('{input} is sought so that {figure} is {value}', { input: label(inputs, spec.vary), figure: label(figures, spec.so_that), value: spec.equals })} <span class="dim">(${spec.lower} … ${spec.upper})</span> <button class="button" onClick=${() => build('remove_specification', { name })}>${t('Remove')}</button></p>`,
+    )}
+    <div class="ports">${menu('spec-vary', t('sought'), inputs, draft.vary, (value) => set({ vary: value, lower: '', upper: '' }))}
+    ${menu('spec-figure', t('so that'), figures, draft.so_that, (value) => set({ so_that: value, equals: '' }))}
+    ${figure && amount('spec-equals', t('takes the value'), figure.p, 'equals')}
+    ${input && html`${amount('spec-lower', t('looked for from'), input.p, 'lower')}${amount('spec-upper', t('up to'), input.p, 'upper')}<p class="small dim">${t('now {value}', { value: input.now })}</p>`}
+    <button class="button" disabled=${!whole} onClick=${async () => {
+      if (await build('set_specification', draft))
+        setDraft({ vary: '', so_that: '', equals: '', lower: '', upper: '' });
+    }}>${t('Add the specification')}</button></div></details>`;
+}

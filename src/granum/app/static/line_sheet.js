@@ -1,0 +1,114 @@
+// The flow diagram as something to work on: zoom, pan, choose, put equipment at an open end, drag an open end to an inlet.
+import { html, t, useState, useEffect, useRef } from './core.js';
+
+const SMALLEST = 0.5;
+const LARGEST = 3;
+const COLUMN = 225; // pixels that a unit with its streams takes
+const DRAGGED = 6; // pixels from where a press becomes a drag
+
+export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcross }) {
+  const frame = useRef(null);
+  const sheet = useRef(null);
+  const drag = useRef(null);
+  const [zoom, setZoom] = useState(1);
+  const by = (factor) => setZoom((z) => Math.min(LARGEST, Math.max(SMALLEST, z * factor)));
+  useEffect(() => {
+    const seen = new ResizeObserver(() => {
+      const width = frame.current?.clientWidth;
+      if (width) setAcross(Math.max(2, Math.min(12, Math.floor((width - 60) / COLUMN))));
+    });
+    seen.observe(frame.current);
+    const wheel = (e) => {
+      if (!e.ctrlKey && !e.metaKey) return;
+      e.preventDefault();
+      by(e.deltaY < 0 ? 1.15 : 1 / 1.15);
+    };
+    frame.current.addEventListener('wheel', wheel, { passive: false });
+    return () => seen.disconnect();
+  }, []);
+  useEffect(() => {
+    const drawn = sheet.current.querySelector('svg');
+    if (!drawn) return;
+    drawn.style.maxWidth = 'none';
+    drawn.style.width = `${Math.round(Number(drawn.dataset.width) * zoom)}px`;
+  }, [svg, zoom]);
+  useEffect(() => {
+    for (const g of sheet.current.querySelectorAll('[data-stream]')) {
+      const stream = streams?.[g.dataset.stream];
+      g.dataset.phase = stream && !old ? stream.phase : '';
+      g.classList.toggle('empty', Boolean(stream?.empty && !old));
+      const name = g.dataset.stream.replaceAll('_', ' ');
+      g.querySelector('title').textContent = stream && !old ? `${name}: ${stream.tip}` : name;
+    }
+    for (const g of sheet.current.querySelectorAll('[data-unit],[data-stream]'))
+      g.classList.toggle('chosen', (g.dataset.unit ?? g.dataset.stream) === chosen.name);
+  }, [svg, streams, old, chosen.name]);
+  const act = (found) => {
+    const { outlet, inlet, unit, stream } = found.dataset;
+    if (outlet) put(outlet);
+    else if (inlet) choose({ sort: 'unit', name: inlet.split('.')[0], port: inlet });
+    else choose(unit ? { sort: 'unit', name: unit } : { sort: 'stream', name: stream });
+  };
+  const thing = (target) => target.closest?.('[data-outlet],[data-inlet],[data-unit],[data-stream]');
+  const key = (e) => {
+    if (e.key === '+' || e.key === '=') by(1.25);
+    else if (e.key === '-') by(0.8);
+    else if (e.key === '0') setZoom(1);
+    else if ((e.key === 'Enter' || e.key === ' ') && thing(e.target)) act(thing(e.target));
+    else return;
+    e.preventDefault();
+  };
+  const down = (e) => {
+    if (e.button) return;
+    const outlet = e.target.closest?.('[data-outlet]')?.dataset.outlet;
+    const box = frame.current;
+    drag.current = {
+      x: e.clientX,
+      y: e.clientY,
+      left: box.scrollLeft,
+      top: box.scrollTop,
+      outlet,
+      moved: false,
+    };
+  };
+  const move = (e) => {
+    const d = drag.current;
+    if (!d) return;
+    d.moved ||= Math.hypot(e.clientX - d.x, e.clientY - d.y) > DRAGGED;
+    if (!d.moved) return;
+    frame.current.setPointerCapture?.(e.pointerId);
+    if (d.outlet) {
+      const box = sheet.current.getBoundingClientRect();
+      const line = sheet.current.parentElement.querySelector('.rubber');
+      line.style.display = 'block';
+      const ends = {
+        x1: d.x - box.left,
+        y1: d.y - box.top,
+        x2: e.clientX - box.left,
+        y2: e.clientY - box.top,
+      };
+      for (const [name, value] of Object.entries(ends)) line.firstElementChild.setAttribute(name, value);
+    } else if (e.pointerType === 'mouse') {
+      frame.current.scrollLeft = d.left - (e.clientX - d.x);
+      frame.current.scrollTop = d.top - (e.clientY - d.y);
+    }
+  };
+  const up = (e) => {
+    const d = drag.current;
+    drag.current = null;
+    sheet.current.parentElement.querySelector('.rubber').style.display = 'none';
+    if (!d?.moved || !d.outlet) return;
+    const below = document.elementFromPoint(e.clientX, e.clientY);
+    const inlet = below?.closest?.('[data-inlet]')?.dataset.inlet;
+    const unit = below?.closest?.('[data-unit]')?.dataset.unit;
+    if (inlet || unit) connect(d.outlet, inlet || unit);
+  };
+  const click = (e) => {
+    const found = thing(e.target);
+    if (found) act(found);
+  };
+  return html`<div class="row zoom"><button class="button" aria-label=${t('Zoom out')} title=${t('Zoom out')} onClick=${() => by(0.8)}>−</button><button class="button" aria-label=${t('Original size')} onClick=${() => setZoom(1)}>${Math.round(100 * zoom)} %</button><button class="button" aria-label=${t('Zoom in')} title=${t('Zoom in')} onClick=${() => by(1.25)}>+</button></div>
+    <div class="diagram" ref=${frame} tabindex="0" role="region" aria-label=${t('Flow diagram')} onClick=${click} onKeyDown=${key} onPointerDown=${down} onPointerMove=${move} onPointerUp=${up} onPointerCancel=${() => {
+      drag.current = null;
+    }}><div class="paper"><div ref=${sheet} dangerouslySetInnerHTML=${{ __html: svg }} /><svg class="rubber" aria-hidden="true"><line /></svg></div></div>`;
+}

@@ -1,0 +1,48 @@
+// The streams of a line: the table of all, as a file, and one by itself.
+import { html, t, ask, download, useState } from './core.js';
+import { Plot } from './plot.js';
+import { pretty } from './line_forms.js';
+
+export function StreamTable({ table, place = '', text, choose, labels }) {
+  const [problem, setProblem] = useState('');
+  const take = async (form) => {
+    setProblem('');
+    try {
+      const content = await ask(
+        '/api/case/tables',
+        { case: text, place, form },
+        { text: form === 'csv', blob: form !== 'csv' },
+      );
+      download(`streams.${form}`, content, form === 'csv' ? 'text/csv' : 'application/octet-stream');
+    } catch (fault) {
+      setProblem(fault.message);
+    }
+  };
+  return html`<div class="row spread"><h2>${t('Streams')}</h2><div class="row"><button class="button" onClick=${() => take('csv')}>CSV</button><button class="button" onClick=${() => take('xlsx')}>Excel</button></div></div>
+    ${problem && html`<p class="message out" role="alert">${problem}</p>`}
+    <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table class="streams"><thead><tr><th scope="col">${t('stream')}</th>${table.heads.map((head) => html`<th class="n" scope="col" data-phase=${head.phase}>${head.label}<span class="dim"> / ${head.unit}</span></th>`)}</tr></thead>
+    <tbody>${table.rows.map(([name, cells]) => html`<tr><th scope="row">${choose ? html`<button class="name" onClick=${() => choose({ sort: 'stream', name })}>${labels[name] || pretty(name)}</button>` : labels[name] || pretty(name)}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}</tr>`)}
+    ${table.sums.map(([label, cells]) => html`<tr class="sum"><th scope="row">${label}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}${table.heads.slice(cells.length).map(() => html`<td></td>`)}</tr>`)}</tbody></table></div>`;
+}
+
+export function StreamPanel({ stream: s }) {
+  const figure = s.size &&
+    s.size.median !== null && {
+      data: [
+        {
+          type: 'scatter',
+          mode: 'lines',
+          line: { shape: 'hv', color: '#b7791f' },
+          x: s.size.boundaries.map((x) => x * 1e6),
+          y: [...s.size.mass_fractions, 0].map((y) => y * 100),
+        },
+      ],
+      layout: {
+        height: 260,
+        margin: { l: 55, r: 15, t: 10, b: 45 },
+        xaxis: { type: 'log', dtick: 1, title: { text: t('particle diameter') + ' / µm' } },
+        yaxis: { title: { text: '% ' + t('by mass') } },
+      },
+    };
+  return html`<div class="columns"><table><tbody>${s.shown.map(([label, text]) => html`<tr><td>${label}</td><td class="n">${text}</td></tr>`)}</tbody></table>${figure && html`<${Plot} figure=${figure} label=${t('Particle sizes')} />`}</div>`;
+}

@@ -1,0 +1,431 @@
+"""Building a line step by step: each operation takes the text of a case file and gives the text after it,
+with every comment and every other line as they were. The text between two steps may be of an unfinished line;
+``outline`` says what it still needs.
+
+    text = new_line("Salt", liquids=["water", "potassium nitrate"], solids=["potassium nitrate"])
+    text = add_feed(text, "hot_liquor")
+    text = add_unit(text, "crystallization.msmpr", origin="hot_liquor")
+    text = add_unit(text, "filtration.horizontal_belt_filter", origin="crystallizer.product")
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import tomlkit
+
+from granum.cases.outline import Outline, free_name, identifier, numbered, outline, pretty, table_of
+from granum.cases.reading import parsed, quantity
+from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
+from granum.cases.starting import (
+    GAS_PER_FEED,
+    GAS_PER_MOISTURE,
+    PAIR,
+    crystals_of,
+    drying_gas,
+    first_feed,
+    listed,
+    starting_feed,
+    starting_values,
+    wash_liquor,
+)
+from granum.cases.wiring import bypass, connect, disconnect, lead, remove, rename, replace
+from granum.core import registry
+from granum.core.conversion import convert
+from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.i18n import _
+from granum.flowsheet.symbols import word_of
+
+__all__ = [
+    "add_feed",
+    "add_unit",
+    "add_wash",
+    "begin",
+    "bypass",
+    "choose_substances",
+    "connect",
+    "disconnect",
+    "form_of_feed",
+    "lead",
+    "new_line",
+    "remove",
+    "remove_specification",
+    "rename",
+    "replace",
+    "retitle",
+    "set_specification",
+    "share_of_feed",
+    "use_fit",
+]
+
+
+def new_line(
+    title: str,
+    liquids: Sequence[str] = (),
+    solids: Sequence[str] = (),
+    gases: Sequence[str] = (),
+    smallest: str = "1 um",
+    largest: str = "10 mm",
+    classes: int = 40,
+) -> str:
+    """An empty line of some substances.
+
+    >>> print(new_line("Salt", ["water"], ["quartz"]), end="")
+    title = "Salt"
+    <BLANKLINE>
+    [mixture]
+    liquids = ["water"]
+    solids = ["quartz"]
+    sizes = { smallest = "1 um", largest = "10 mm", classes = 40 }
+    """
+    if not title.strip():
+        raise InputError(_("The line needs a title."), name="title")
+    species = {"liquids": list(liquids), "solids": list(solids), "gases": list(gases)}
+    _require_mixture(species)
+    values = {name: names for name, names in species.items() if names}
+    sizes = {"smallest": smallest, "largest": largest, "classes": classes}
+    return with_table(f"title = {written(title.strip())}\n", ("mixture",), values | {"sizes": sizes})
+
+
+BEGINNINGS = ("solution", "suspension", "moist_solid", "dusty_gas")
+
+
+def begin(
+    title: str,
+    enters: str = "solution",
+    liquid: str = "water",
+    solute: str = "potassium nitrate",
+    solid: str = "quartz",
+    gas: str = "dry air",
+) -> str:
+    """A line with its first feed: a ``solution`` to crystallize from, a ``suspension``, a ``moist_solid`` to
+    dry or a ``dusty_gas``. What is not needed of the substances is left out.
+    """
+    if enters == "solution":
+        crystals = crystals_of(solute, liquid)
+        if not crystals:
+            raise InputError(
+                _("'{solute}' has no solubility in '{solvent}' in the library.").format(
+                    solute=solute, solvent=liquid
+                ),
+                name="solute",
+            )
+        text = new_line(title, [liquid, solute], crystals)
+    elif enters == "suspension":
+        text = new_line(title, [liquid], [solid])
+    elif enters == "moist_solid":
+        text = new_line(title, [liquid], [solid], [gas, liquid])
+    elif enters == "dusty_gas":
+        text = new_line(title, [], [solid], [gas], "0.1 um", "1 mm")
+    else:
+        raise unknown_name(_("Beginning"), enters, BEGINNINGS)
+    return add_feed(text, _(enters), values=first_feed(table_of(parsed(text, "case"), "mixture"), enters))
+
+
+def _require_mixture(species: Mapping[str, Sequence[str]]) -> None:
+    """Refuses substances that are not in the library, or none at all."""
+    from granum.streams.from_materials import mixture_of
+
+    if not any(species.values()):
+        raise InputError(_("Choose at least one substance."), name="liquids")
+    for names in species.values():
+        twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+        if twice is not None:
+            raise InputError(_("'{name}' is chosen twice.").format(name=twice), name="liquids")
+    mixture_of(species["liquids"], species["solids"], species["gases"], (1e-6, 1e-3))
+
+
+def choose_substances(
+    case: str, liquids: Sequence[str] = (), solids: Sequence[str] = (), gases: Sequence[str] = ()
+) -> str:
+    """Other substances. Shares of feeds that named one which is gone are given to the first of its phase."""
+    raw = parsed(case, "case")
+    species = {"liquids": list(liquids), "solids": list(solids), "gases": list(gases)}
+    _require_mixture(
+        species
+        if not table_of(raw, "mixture").get("materials")
+        else {"liquids": ["water"], "solids": [], "gases": []}
+    )
+    for name, names in species.items():
+        if names != listed(table_of(raw, "mixture"), name):
+            case = with_value(case, ("mixture",), name, names)
+    for feed, table in table_of(raw, "feeds").items():
+        for phase, allowed in (("liquid", liquids), ("solid", solids), ("gas", gases)):
+            shares = table.get(phase) if isinstance(table, dict) else None
+            if not isinstance(shares, dict):
+                continue
+            if not allowed:
+                for word in (phase, f"{phase}_flow"):
+                    case = without_value(case, ("feeds", feed), word)
+            elif set(shares) - set(allowed):
+                kept = {name: x for name, x in shares.items() if name in allowed}
+                rest = 1.0 - sum(share_of(x, name) for name, x in kept.items() if name != allowed[0])
+                case = with_value(
+                    case,
+                    ("feeds", feed),
+                    phase,
+                    {allowed[0]: percent(rest)} | {n: x for n, x in kept.items() if n != allowed[0]},
+                )
+    return checked(case)
+
+
+def add_feed(case: str, name: str = "", to: str = "", values: Mapping[str, Any] | None = None) -> str:
+    """A feed of what the line is made of, to an inlet or to nowhere yet."""
+    found = outline(case)
+    name = free_name(found, name or _("feed"))
+    made = dict(values) if values is not None else starting_feed(table_of(found.raw, "mixture"))
+    case = with_table(case, ("feeds", name), {"to": ""} | made)
+    return connect(case, name, to) if to else checked(case)
+
+
+def share_of_feed(case: str, feed: str, phase: str, species: str, value: str) -> str:
+    """A share of one phase of a feed set; the first species of the phase takes the rest."""
+    raw = parsed(case, "case")
+    table = table_of(table_of(raw, "feeds"), feed)
+    names = listed(table_of(raw, "mixture"), f"{phase}s" if phase != "gas" else "gases")
+    if species not in names:
+        raise unknown_name(_("Species"), species, names)
+    shares = dict(table_of(table, phase)) or {names[0]: 1.0}
+    first = names[0] if species != names[0] else (names[1] if len(names) == 2 else "")
+    shares[species] = value
+    if first:
+        rest = 1.0 - sum(share_of(x, name) for name, x in shares.items() if name != first)
+        if not -1e-9 <= rest <= 1.0 + 1e-9:
+            raise InputError(
+                _("The shares of the {phase} in {feed} add up to more than 100 %.").format(
+                    phase=_(phase), feed=pretty(feed)
+                ),
+                name=f"{phase}.{species}",
+            )
+        shares[first] = percent(max(rest, 0.0))
+    return checked(with_value(case, ("feeds", feed), phase, {n: shares[n] for n in names if n in shares}))
+
+
+def share_of(value: Any, name: str) -> float:
+    return quantity(value, "MassFraction", name, "")
+
+
+def percent(share: float) -> str:
+    return f"{100.0 * share:.10g} %"
+
+
+def form_of_feed(case: str, feed: str, form: str) -> str:
+    """A feed of solid and liquid written as ``totals`` (mass flow and share of solids) or as flows of its
+    ``phases``; the stream is the same.
+    """
+    table = table_of(table_of(parsed(case, "case"), "feeds"), feed)
+    place = ("feeds", feed)
+    if form == "totals" and "mass_flow" not in table:
+        solid, liquid = (_flow(table, name) for name in ("solid_flow", "liquid_flow"))
+        total = solid + liquid
+        for name in ("solid_flow", "liquid_flow"):
+            case = without_value(case, place, name)
+        case = with_value(case, place, "mass_flow", f"{3600.0 * total:.10g} kg/h")
+        case = with_value(case, place, "solids_mass_fraction", percent(solid / total if total else 0.0))
+    elif form == "phases" and "mass_flow" in table:
+        total = _flow(table, "mass_flow")
+        share = share_of(table.get("solids_mass_fraction", 0.0), "solids_mass_fraction")
+        for name in ("mass_flow", "solids_mass_fraction"):
+            case = without_value(case, place, name)
+        case = with_value(case, place, "liquid_flow", f"{3600.0 * total * (1.0 - share):.10g} kg/h")
+        if share:
+            case = with_value(case, place, "solid_flow", f"{3600.0 * total * share:.10g} kg/h")
+    elif form not in ("totals", "phases"):
+        raise InputError(_("A feed is given as 'phases' or 'totals'."), name="form")
+    return checked(case)
+
+
+def _flow(table: Mapping[str, Any], name: str) -> float:
+    return quantity(table[name], "MassFlow", name, "") if name in table else 0.0
+
+
+def add_unit(
+    case: str, model: str, name: str = "", origin: str = "", values: Mapping[str, Any] | None = None
+) -> str:
+    """A piece of equipment with ordinary values; what ``origin`` names (a feed, or ``unit.outlet``) enters
+    its first inlet.
+
+    A dryer or the like that needs gas gets a feed of hot gas of its own.
+    """
+    thing = registry.find(model)
+    if thing.card.sort != "equipment":
+        raise InputError(
+            _("'{model}' is a {sort}, not equipment.").format(model=model, sort=_(thing.card.sort))
+        )
+    found = outline(case)
+    name = free_name(found, name or _(word_of(model)))
+    mixture = table_of(found.raw, "mixture")
+    made = dict(values) if values is not None else starting_values(thing.card.key, mixture)
+    if values is None:
+        made |= _scaled(thing.card.key, made, found)
+    case = with_table(case, ("units", name), {"model": thing.card.key} | made)
+    ports = thing.inlet_names()
+    if origin:
+        case = connect(case, origin, f"{name}.{_first_inlet(ports, origin)}")
+    if values is None:
+        for port in ports or ():
+            if port == "gas" and "feed" in ports:
+                case = _with_gas(case, name, found, origin)
+        case = _with_vapor(case) if _asks_for_vapor(thing.card.key) else case
+    return checked(case)
+
+
+def _first_inlet(ports: tuple[str, ...] | None, origin: str) -> str:
+    return ports[0] if ports else origin.replace(".", "_")
+
+
+def _scaled(model: str, made: Mapping[str, Any], found: Outline) -> dict[str, Any]:
+    """Sizes of vessels and machines for a line that is far from a tonne an hour, in proportion."""
+    tonnes = _entering(found) / (1000.0 / 3600.0)
+    if tonnes <= 0.0 or 0.2 < tonnes < 5.0:
+        return {}
+    parameters = (p for p in registry.find(model).card.parameters if p.name in EXTENSIVE and p.name in made)
+    return {
+        p.name: f"{float(f'{tonnes * float(convert(made[p.name], p)):.2g}'):.10g} {p.kind.unit}"
+        for p in parameters
+        if p.kind is not None
+    }
+
+
+EXTENSIVE = ("area", "screen_area", "volume", "holdup_mass", "shaft_power")
+
+
+def _entering(found: Outline) -> float:
+    """Solid and liquid that the feeds bring, kg/s; unreadable ones count as nothing."""
+    total = 0.0
+    for table in table_of(found.raw, "feeds").values():
+        for word in ("mass_flow", "solid_flow", "liquid_flow"):
+            try:
+                total += _flow(table, word)
+            except (GranumError, TypeError):
+                continue
+    return total
+
+
+def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
+    """The case with a feed of hot gas to a dryer; air and the vapor of the first liquid are added to
+    substances that have none.
+    """
+    case = _with_vapor(case)
+    flow = GAS_PER_FEED * (_entering(found) or 1000.0 / 3600.0)
+    moist = table_of(table_of(found.raw, "feeds"), origin)
+    if moist:
+        flow = max(flow, GAS_PER_MOISTURE * _flow(moist, "liquid_flow"))
+    now = outline(case)
+    gas = drying_gas(table_of(now.raw, "mixture"), flow)
+    return add_feed(case, free_name(now, _("hot_gas")), f"{unit}.gas", gas)
+
+
+def _with_vapor(case: str) -> str:
+    """Air and the vapor of the first liquid, where the line has no gas yet."""
+    mixture = table_of(parsed(case, "case"), "mixture")
+    if listed(mixture, "gases"):
+        return case
+    return with_value(case, ("mixture",), "gases", [PAIR[0], *(listed(mixture, "liquids")[:1] or PAIR[1:])])
+
+
+def _asks_for_vapor(model: str) -> bool:
+    """Whether a piece of equipment evaporates or condenses the solvent."""
+    return any(word in model for word in ("vacuum_crystallizer", "vacuum_batch", "humid", "condenser"))
+
+
+def add_wash(case: str, unit: str) -> str:
+    """A feed of pure solvent to the wash inlet of a filter."""
+    found = outline(case)
+    name = free_name(found, _("wash_liquor"))
+    return add_feed(
+        case,
+        name,
+        f"{unit}.wash",
+        wash_liquor(table_of(found.raw, "mixture"), 0.1 * (_entering(found) or 0.3)),
+    )
+
+
+def set_specification(
+    case: str, vary: str, so_that: str, equals: str, lower: str, upper: str, name: str = ""
+) -> str:
+    """A design specification: the value of an input of a unit is sought for which a figure takes a value."""
+    found = outline(case)
+    for path, inputs in ((vary, True), (so_that, False)):
+        unit, _dot, word = path.partition(".")
+        model = found.units.get(unit)
+        if model is None:
+            raise unknown_name(_("Unit"), unit, found.order)
+        known = [p.name for p in (model.card.parameters if inputs else model.card.outputs)]
+        if word not in known:
+            raise unknown_name(
+                _("Parameter") if inputs else _("Result"), word, known, _("of '{owner}'").format(owner=unit)
+            )
+    for word, value in (("equals", equals), ("lower", lower), ("upper", upper)):
+        if not str(value).strip():
+            raise InputError(
+                _("A specification needs the value to reach and the range to search."), name=word
+            )
+    specs = table_of(found.raw, "specifications")
+    values = {"vary": vary, "so_that": so_that, "equals": equals, "lower": lower, "upper": upper}
+    if name in specs:
+        for word, value in values.items():
+            case = with_value(case, ("specifications", name), word, value)
+        return checked(case)
+    return checked(
+        with_table(
+            case,
+            ("specifications", numbered(identifier(name or vary.replace(".", "_")), set(specs))),
+            values,
+        )
+    )
+
+
+def remove_specification(case: str, name: str) -> str:
+    """A design specification taken out; the input keeps the value that is written."""
+    specs = table_of(parsed(case, "case"), "specifications")
+    if name not in specs:
+        raise unknown_name(_("Specification"), name, specs)
+    return checked(without_table(case, ("specifications", name)))
+
+
+def use_fit(
+    case: str, unit: str, test: str, data: str, conditions: Mapping[str, Any], estimates: Sequence[str]
+) -> str:
+    """A lab test with its data made the source of inputs of a unit, with their uncertainty; in place of one
+    that gave the same inputs.
+    """
+    found = outline(case)
+    model = found.units.get(unit)
+    if model is None:
+        raise unknown_name(_("Unit"), unit, found.order)
+    own = {p.name for p in model.card.parameters}
+    gives = {f"{unit}.{name}": name for name in estimates if name in own}
+    if not gives:
+        raise InputError(
+            _("{unit} takes none of what this test gives: {names}.").format(
+                unit=pretty(unit), names=", ".join(estimates)
+            )
+        )
+    fits = table_of(found.raw, "fits")
+    for name, table in fits.items():
+        if set(table_of(table, "gives")) & set(gives):
+            case = without_table(case, ("fits", name))
+    taken = set(table_of(parsed(case, "case"), "fits"))
+    name = numbered(test.partition(".")[2] or "fit", taken)
+    for estimate in gives.values():
+        if estimate not in table_of(table_of(found.raw, "units"), unit):
+            p = model.card.parameter(estimate)
+            if p.required:
+                raise InputError(_("{unit}: {label} is missing.").format(unit=pretty(unit), label=p.label))
+    return checked(
+        with_table(
+            case, ("fits", name), {"test": test, "data": data, "conditions": dict(conditions), "gives": gives}
+        )
+    )
+
+
+def retitle(case: str, title: str) -> str:
+    """The line under another title."""
+    if not title.strip():
+        raise InputError(_("The line needs a title."), name="title")
+    parsed(case, "case")
+    document = tomlkit.parse(case)
+    document["title"] = title.strip()
+    return checked(tomlkit.dumps(document))

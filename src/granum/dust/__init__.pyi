@@ -1,0 +1,50 @@
+"""Dust in gas: bag filters, scrubbers, electrostatic precipitators, settling chambers, emissions."""
+
+from granum.dust.equipment.bag_filter import (
+    BagFigures as BagFigures,
+    BagFilter as BagFilter,
+    Bagged as Bagged,
+)
+from granum.dust.equipment.collector import (
+    Cleaned as Cleaned,
+    Collector as Collector,
+    Seen as Seen,
+)
+from granum.dust.equipment.precipitator import (
+    Charged as Charged,
+    ElectrostaticPrecipitator as ElectrostaticPrecipitator,
+    PrecipitatorFigures as PrecipitatorFigures,
+)
+from granum.dust.equipment.settling_chamber import (
+    ChamberFigures as ChamberFigures,
+    Fallen as Fallen,
+    SettlingChamber as SettlingChamber,
+)
+from granum.dust.equipment.venturi import (
+    Scrubbed as Scrubbed,
+    Throat as Throat,
+    VenturiFigures as VenturiFigures,
+    VenturiScrubber as VenturiScrubber,
+)
+from granum.dust.formulas.bags import (
+    residual_drag_pulse_jet as residual_drag_pulse_jet,
+)
+from granum.dust.formulas.chambers import (
+    grade_efficiency_chamber_laminar as grade_efficiency_chamber_laminar,
+    grade_efficiency_chamber_turbulent as grade_efficiency_chamber_turbulent,
+)
+from granum.dust.formulas.emission import (
+    emission_concentration as emission_concentration,
+)
+from granum.dust.formulas.precipitation import (
+    elementary_charges_diffusion as elementary_charges_diffusion,
+    elementary_charges_field as elementary_charges_field,
+    grade_efficiency_deutsch as grade_efficiency_deutsch,
+    migration_velocity as migration_velocity,
+)
+from granum.dust.formulas.scrubbers import (
+    droplet_diameter_venturi as droplet_diameter_venturi,
+    grade_efficiency_johnstone as grade_efficiency_johnstone,
+    impaction_number as impaction_number,
+    pressure_drop_venturi as pressure_drop_venturi,
+)

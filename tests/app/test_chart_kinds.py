@@ -1,0 +1,93 @@
+"""Every kind of chart: none of its buttons sends anything anywhere; states of humid gas as a table."""
+
+from __future__ import annotations
+
+import csv
+import json
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+from selenium.webdriver.common.keys import Keys
+from tests.app.browsing import Page
+
+INDEX = Path(str(files("granum") / "core" / "index.csv"))
+CHARTS = [
+    row["key"]
+    for row in csv.DictReader(INDEX.read_text(encoding="utf-8").splitlines())
+    if row["sort"] == "chart"
+]
+
+
+def asked(page: Page) -> list[str]:
+    """Addresses that the page has asked for since this was called last."""
+    found = []
+    for entry in page.browser.get_log("performance"):
+        message = json.loads(entry["message"])["message"]
+        if message["method"] == "Network.requestWillBeSent":
+            found.append(message["params"]["request"]["url"])
+    return found
+
+
+@pytest.mark.parametrize("chart", CHARTS)
+def test_no_button_of_a_chart_sends_anything_anywhere(page: Page, chart: str) -> None:
+    page.browser.get_log("performance")
+    page.open(f"charts/{chart}")
+    windows = len(page.browser.window_handles)
+    if page.all(".plot"):  # some charts wait for a table of one's own
+        buttons = page.until(lambda: page.all(".plot .modebar-btn"))
+        titles = [b.get_attribute("data-title") or "" for b in buttons]
+        assert not [t for t in titles if any(w in t.lower() for w in ("share", "cloud", "edit", "upload"))]
+        for button in buttons:
+            assert button.tag_name == "button", "reached by keyboard"
+            page.browser.execute_script("arguments[0].click()", button)
+        for name in ("SVG", "CSV"):
+            for button in page.all(".files button"):
+                if button.text == name:
+                    page.browser.execute_script(
+                        "HTMLAnchorElement.prototype.click = () => {}; arguments[0].click()", button
+                    )
+        page.browser.execute_async_script("setTimeout(arguments[0], 300)")
+    outside = [url for url in asked(page) if not url.startswith((page.address, "data:", "blob:", "about:"))]
+    assert not outside
+    assert len(page.browser.window_handles) == windows
+
+
+@pytest.mark.parametrize(("language", "add"), [("en", "Add a state"), ("fr", "Ajouter un état")])
+def test_states_of_humid_gas_are_a_table(page: Page, language: str, add: str) -> None:
+    page.open(
+        "charts/humid_gas.psychrometric_chart?temperature=20+60+degC&humidity_ratio=8+8+g%2Fkg", language
+    )
+    page.one(".plot .main-svg .scatterlayer .trace")
+    page.until(lambda: len(page.all(".states tbody tr")) == 2)
+    page.button(add).click()
+    page.until(lambda: len(page.all(".states tbody tr")) == 3)
+    page.settle()
+
+    def cell(row: int, column: int) -> str:
+        return f".states tbody tr:nth-child({row}) td:nth-child({column}) input"
+
+    for column, typed in ((2, "35"), (4, "30")):  # temperature, then relative humidity
+        field = page.one(cell(3, column))
+        field.send_keys(Keys.CONTROL, "a")
+        field.send_keys(typed)
+        field.send_keys(Keys.ENTER)
+        page.settle()
+    # the course reads 10.5 g/kg for air at 35 °C and 30 %
+    page.until(lambda: abs(float(page.one(cell(3, 3)).get_attribute("value").replace(",", ".")) - 10.5) < 0.2)
+    page.until(lambda: "35+degC" in page.browser.current_url)
+    page.all(".states tbody button")[0].click()
+    page.until(lambda: len(page.all(".states tbody tr")) == 2)
+    page.settle()
+    page.check()
+
+
+def test_the_table_of_a_chart_is_one_of_the_page(page: Page) -> None:
+    page.open(
+        "charts/humid_gas.psychrometric_chart?temperature=68+140+degF&humidity_ratio=8+8+g%2Fkg", width=390
+    )
+    page.one(".plot .main-svg .scatterlayer .trace")
+    assert len(page.all(".wide table tbody tr")) == 2, (
+        "lists in other units stay lists, their states are told"
+    )
+    page.check()

@@ -1,0 +1,117 @@
+"""The search and the list of cards over the network: kinds, ranking, languages, and as few bytes as
+possible.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from granum.app.reading import as_html
+from granum.app.shipped import examples, pages
+from granum.core.index import entries
+
+
+@pytest.fixture(scope="module")
+def client(address: str) -> Iterator[Any]:
+    with httpx.Client(base_url=address, timeout=240.0) as found:
+        yield found
+
+
+@pytest.mark.parametrize(
+    ("asked", "language", "sort", "key"),
+    [
+        ("vacuum drum", "en", "equipment", "filtration.rotary_vacuum_drum"),
+        ("jar test", "en", "lab test", "settling.batch_test"),
+        ("humidity chart", "en", "chart", "humid_gas.psychrometric_chart"),
+        ("which dryer", "en", "procedure", "drying.choose"),
+        ("potassium nitrate hot liquor", "en", "line", "potassium-nitrate/line.toml"),
+        ("büchner test to a pressure filter", "en", "exercise", "buchner-to-filter"),
+        ("first hour", "en", "page", "guides/first-hour"),
+        ("première heure", "fr", "page", "fr/premiere-heure"),
+        ("cyclones en série", "fr", "line", "cyclone/pair.toml"),
+        ("essai sur büchner", "fr", "exercise", "buchner-to-filter"),
+    ],
+)
+def test_every_kind_is_found(client: Any, asked: str, language: str, sort: str, key: str) -> None:
+    hits = client.get("/api/search", params={"q": asked, "lang": language}).json()["hits"]
+    assert {"sort": sort, "key": key}.items() <= hits[0].items() or any(
+        hit["sort"] == sort and hit["key"] == key for hit in hits[:3]
+    ), hits[:3]
+    assert all(hit["title"] for hit in hits)
+
+
+def test_titles_are_in_the_language_of_the_page(client: Any) -> None:
+    hits = client.get("/api/search?q=filter+press", headers={"x-language": "fr"}).json()["hits"]
+    assert "Filtre-presse à plateaux et cadres" in [hit["title"] for hit in hits]
+
+
+@pytest.mark.parametrize("asked", ["", " ", "%", "'; --", "\x00", "a" * 5000, "🦆", "-", "/api"])
+def test_whatever_is_typed_is_answered(client: Any, asked: str) -> None:
+    assert client.get("/api/search", params={"q": asked}).status_code == 200
+    assert client.get("/api/cards", params={"word": asked}).status_code == 200
+
+
+def test_the_list_is_small_and_not_sent_twice(client: Any) -> None:
+    first = client.get("/api/cards", headers={"accept-encoding": "gzip"})
+    assert first.headers["content-encoding"] == "gzip"
+    assert int(first.headers["content-length"]) < 70_000
+    assert len(first.json()["cards"]) == len(entries())
+    assert "x-language" in first.headers["vary"]
+    again = client.get("/api/cards", headers={"if-none-match": first.headers["etag"]})
+    assert again.status_code == 304
+    assert again.content == b""
+    french = client.get("/api/cards?lang=fr", headers={"if-none-match": first.headers["etag"]})
+    assert french.status_code == 200
+    assert french.headers["etag"] != first.headers["etag"]
+
+
+def test_other_answers_are_compressed_for_those_who_accept_it(client: Any) -> None:
+    place = "/api/cards/particles.terminal_velocity"
+    plain = client.get(place, headers={"accept-encoding": "identity"})
+    assert "content-encoding" not in plain.headers
+    assert client.get(place, headers={"accept-encoding": "gzip"}).json() == plain.json()
+    script = client.get("/strings.fr.js", headers={"accept-encoding": "gzip"})
+    assert script.headers["content-encoding"] == "gzip"
+
+
+def test_plotly_is_a_third_of_its_size(client: Any) -> None:
+    answer = client.get("/vendor/plotly.js", headers={"accept-encoding": "gzip"})
+    assert int(answer.headers["content-length"]) < 2_000_000
+    assert "max-age" in answer.headers["cache-control"]
+
+
+@pytest.mark.parametrize("name", pages())
+def test_every_page_of_the_documentation_can_be_read(name: str) -> None:
+    found = as_html(name)
+    assert found["title"]
+    assert "<h1>" in found["html"]
+    assert "<script" not in found["html"]
+
+
+def test_there_are_lines_and_pages_to_find() -> None:
+    assert len(examples()) > 40
+    assert {"guides/first-hour", "theory/settling", "fr/premiere-heure", "errata"} <= set(pages())
+
+
+def test_equipment_as_a_form_says_what_it_means_in_words(client: Any) -> None:
+    asked = {"area": "12 m2", "feed.solid_flow": "400 kg/h"}
+    found = client.post("/api/alone/filtration.rotary_vacuum_drum?lang=fr", json=asked).json()
+    assert found["values"]["area"] == "12 m2"
+    assert "chlorure de sodium, part" in [
+        row["label"] for group in found["groups"] for row in group["parameters"]
+    ]
+    assert "'feed.solid_flow=400 kg/h'" in found["command"]
+    assert "feed={'solid_flow': '400 kg/h'}" in found["python"]
+    refused = client.post("/api/alone/filtration.rotary_vacuum_drum", json={"areaa": "1"})
+    assert refused.status_code == 422
+    assert "area" in refused.json()["error"]["message"]
+
+
+def test_a_law_has_a_value_on_its_page(client: Any) -> None:
+    found = client.post("/api/calc/drying.isotherm_wheat", json={"water_activity": "0.5"})
+    assert found.status_code == 200, found.text
+    assert 0.05 < found.json()["outputs"]["isotherm"]["value"] < 0.2

@@ -1,0 +1,110 @@
+"""Each piece of equipment alone: it opens with a result that nothing is said against, and is changed by
+words.
+"""
+
+from __future__ import annotations
+
+import json
+import tomllib
+
+import pytest
+from tests.sharing.commands import granum
+
+import granum as gr
+from granum.cases import read_text
+from granum.cases.alone import alone, case_text, tables
+from granum.core.errors import GranumError
+from granum.core.index import entries
+
+EQUIPMENT = [key for key, entry in entries().items() if entry.sort == "equipment"]
+DRUM = "filtration.rotary_vacuum_drum"
+
+
+@pytest.mark.parametrize("key", EQUIPMENT)
+def test_it_opens_with_a_result_and_without_a_flag(key: str) -> None:
+    run = alone(key).solve()
+    (report,) = run.units.values()
+    assert all(p.kind is None or value is not None for p, value in report.figures())
+    assert [check.name for check in report.checks if not check.ok] == []
+    assert [flag["message"] for flag in run.as_json()["flags"]] == []
+    assert run.audit["mass_closure"] < 1e-9
+    assert run.audit["energy_closure"] < 1e-9
+
+
+def test_words_change_the_unit_its_feed_and_its_substances() -> None:
+    found = tables(
+        DRUM, {"area": "12 m2", "feed.solid_flow": "400 kg/h", "mixture.solids": "quartz", "wash": "no"}
+    )
+    assert found["units"]["rotary_vacuum_drum"]["area"] == "12 m2"
+    assert found["feeds"]["feed"]["solid_flow"] == "400 kg/h"
+    assert found["mixture"]["solids"] == ["quartz"]
+    assert "wash" not in found["feeds"]
+
+
+def test_a_flow_said_another_way_replaces_the_first() -> None:
+    feed = tables(DRUM, {"feed.mass_flow": "3 t/h", "feed.solids_mass_fraction": "10 %"})["feeds"]["feed"]
+    assert "solid_flow" not in feed
+    assert "liquid_flow" not in feed
+    run = gr.alone(DRUM, feed={"mass_flow": "3 t/h", "solids_mass_fraction": "10 %"}).solve()
+    assert run.streams["feed"].solid_flow * 3600 == pytest.approx(300.0)
+
+
+def test_shares_of_substances_that_are_gone_go_with_them() -> None:
+    found = tables(DRUM, {"mixture.liquids": "water"})
+    assert all("liquid" not in feed for port, feed in found["feeds"].items() if port == "feed")
+    assert alone(DRUM, mixture={"liquids": "water"}).solve().audit["mass_closure"] < 1e-9
+
+
+def test_twice_the_area_is_half_the_load() -> None:
+    small, large = (
+        alone(DRUM, area=area).solve().units["rotary_vacuum_drum"].values for area in ("9 m2", "18 m2")
+    )
+    assert float(small.area_required) == pytest.approx(float(large.area_required), rel=0.05)
+    assert float(large.capacity_use) == pytest.approx(float(small.capacity_use) / 2, rel=0.05)
+
+
+def test_a_heater_takes_what_the_water_takes_up() -> None:
+    """1 kg/s of water from 20 to 60 °C takes 4.18 kJ/(kg K) × 40 K."""
+    run = alone(
+        "streams.heater",
+        temperature="60 degC",
+        feed={"liquid_flow": "1 kg/s", "solid_flow": "1e-9 kg/s", "temperature": "20 degC"},
+    ).solve()
+    assert float(run.units["heater"].values.heat_duty) == pytest.approx(167.2e3, rel=0.005)
+
+
+def test_its_text_is_a_case_file_that_says_the_same() -> None:
+    text = case_text(DRUM, {"area": "12 m2"})
+    assert tomllib.loads(text)["units"]["rotary_vacuum_drum"]["area"] == "12 m2"
+    one, other = read_text(text).solve(), alone(DRUM, area="12 m2").solve()
+    assert one.as_json()["units"] == other.as_json()["units"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ({"areaa": "12 m2"}, "Did you mean 'area'?"),
+        ({"feed.solidflow": "1 kg/s"}, "Did you mean 'feed.solid_flow'?"),
+        ({"fed.solid_flow": "1 kg/s"}, "fed.solid_flow"),
+        ({"wash_dissolution": "{law"}, "not valid JSON"),
+    ],
+)
+def test_what_is_no_word_of_it_is_told(words: dict[str, str], said: str) -> None:
+    with pytest.raises(GranumError) as problem:
+        case_text(DRUM, words)
+    assert said in problem.value.message
+
+
+def test_a_formula_is_no_equipment() -> None:
+    with pytest.raises(GranumError, match="is a formula, not equipment"):
+        alone("particles.reynolds_number")
+
+
+def test_the_command_solves_it() -> None:
+    code, out, _err = granum("calc", DRUM, "area=12m2", "feed.solid_flow=400kg/h", "--json")
+    assert code == 0
+    found = json.loads(out)
+    assert found["units"]["rotary_vacuum_drum"]["results"]["capacity_use"]["value"] < 1.0
+    code, out, err = granum("calc", DRUM, "area=-1m2")
+    assert code == 2
+    assert "Traceback" not in err

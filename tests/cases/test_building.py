@@ -1,0 +1,370 @@
+"""Building a line step by step: every step keeps the text of the others, and gives a line or says what it
+still needs.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from granum.cases import building as b
+from granum.cases import read_text
+from granum.cases.outline import identifier, outline
+from granum.cases.sections import sections
+from granum.core import registry
+from granum.core.errors import CaseError, GranumError, InputError
+from granum.core.i18n import language
+from granum.flowsheet.drawing import draw
+
+EXAMPLES = sorted(Path("examples").glob("*/*.toml"))
+EQUIPMENT = sorted(t.card.key for t in registry.everything().values() if t.card.sort == "equipment")
+SALT = {"liquids": ["water", "potassium nitrate"], "solids": ["potassium nitrate"]}
+
+
+def salt_line() -> str:
+    """Crystallizer, filter and dryer, liquor going back."""
+    text = b.add_feed(b.new_line("Salt", **SALT), "hot liquor")
+    text = b.add_unit(text, "crystallization.msmpr", origin="hot_liquor")
+    text = b.add_unit(text, "filtration.horizontal_belt_filter", origin="crystallizer.product")
+    text = b.add_unit(text, "drying.well_mixed_dryer", origin="filter.cake")
+    return b.connect(text, "filter.filtrate", "crystallizer.feed")
+
+
+def species_out(run: Any, species: str) -> float:
+    """What leaves the line of a dissolved or crystalline species, kg/s."""
+    total = 0.0
+    for name in run.sheet.products:
+        s = run.streams[name]
+        m = s.mixture
+        for names, flows in ((m.liquids, s.liquid), (m.solids, s.solid_by_species), (m.gases, s.gas)):
+            total += sum(float(x) for one, x in zip(names, flows, strict=True) if one.name == species)
+    return total
+
+
+def test_a_line_with_recycle_is_built_and_conserves() -> None:
+    text = salt_line()
+    assert outline(text).missing == ()
+    run = read_text(text).solve()
+    fed = float(run.streams["hot_liquor"].liquid[1])
+    assert species_out(run, "potassium nitrate") == pytest.approx(fed, rel=1e-9)
+    assert run.audit["mass_closure"] < 1e-9
+    assert run.audit["energy_closure"] < 1e-9
+    assert "purge" in run.units  # or water would go around for ever
+    # at 30 °C water holds 0.456 kg/kg (Mullin 2001, app. A.3: 45.6 g per 100 g); the purge leaves saturated
+    purged = run.streams["purge.side"]
+    assert float(purged.liquid[1] / purged.liquid[0]) == pytest.approx(0.456, rel=0.05)
+
+
+def test_each_step_says_what_is_missing() -> None:
+    text = b.new_line("Salt", **SALT)
+    assert outline(text).missing == (
+        "The line has no equipment yet: add the first piece.",
+        "The line has no feed yet: add one.",
+    )
+    text = b.add_unit(text, "filtration.nutsche")
+    assert "Filter has no feed yet." in outline(text).missing
+    text = b.add_feed(text, "slurry")
+    assert set(outline(text).missing) == {"Filter has no feed yet.", "Slurry goes nowhere yet."}
+    assert outline(b.connect(text, "slurry", "filter.feed")).missing == ()
+    with language("fr"):
+        assert "Filter n'a pas encore d'alimentation." in outline(text).missing
+
+
+def test_names_are_of_the_language_and_free() -> None:
+    with language("fr"):
+        text = b.add_unit(b.new_line("Sel", **SALT), "filtration.nutsche")
+        text = b.add_unit(text, "filtration.chamber_press")
+    assert outline(text).order == ("filtre", "filtre_2")
+    assert identifier("Séchoir n° 2") == "séchoir_n_2"
+    renamed = b.rename(text, "filtre_2", "Filtre à plateaux")
+    assert outline(renamed).order == ("filtre", "filtre_à_plateaux")
+    with pytest.raises(InputError, match="already"):
+        b.rename(text, "filtre", "filtre 2")
+
+
+def test_what_is_taken_is_divided_and_joined() -> None:
+    text = salt_line()
+    found = outline(text)
+    assert {k.name: (k.origin, k.target) for k in found.links}["purge_product"] == (
+        "purge.product",
+        "mixer.purge_product",
+    )
+    again = b.connect(text, "filter.washings", "crystallizer.feed")  # a second stream into the same mixer
+    assert [u for u in outline(again).order if u.startswith("mixer")] == ["mixer"]
+    shared = b.connect(text, "crystallizer.product", "dryer.feed")
+    assert "divider" in outline(shared).order
+    assert outline(shared).missing == ()
+    with pytest.raises(InputError, match="feed itself"):
+        b.connect(text, "filter.washings", "filter.wash")
+
+
+def test_removal_leads_through_what_only_passes_on_and_takes_its_specifications_along() -> None:
+    text = salt_line()
+    text = b.set_specification(
+        text, "purge.side_fraction", "dryer.evaporation_rate", "25 kg/h", "5 %", "90 %"
+    )
+    without = b.remove(text, "purge")
+    assert "specifications" not in tomllib.loads(without)
+    link = next(k for k in outline(without).links if k.origin == "filter.filtrate")
+    assert link.target == "mixer.purge_product"
+    bare = b.remove(without, "filter")
+    assert outline(bare).missing == ("Dryer has no feed yet.",)
+    assert b.remove(bare, "hot_gas").count("hot_gas") == 0
+
+
+def test_a_bypass_mixes_again() -> None:
+    text = b.bypass(salt_line(), "dryer", share="25 %")
+    assert outline(text).missing == ()
+    run = read_text(text).solve()
+    wet, cake = run.streams["bypass_side"], run.streams["filter_cake"]
+    assert float(wet.mass_flow) == pytest.approx(0.25 * float(cake.mass_flow), rel=1e-9)
+
+
+def test_a_specification_is_met() -> None:
+    text = b.set_specification(
+        salt_line(), "purge.side_fraction", "purge.mass_flow", "1000 kg/h", "5 %", "90 %"
+    )
+    run = read_text(text).solve()
+    assert run.figure("purge.mass_flow") == pytest.approx(1000 / 3600, rel=1e-6)
+    again = b.set_specification(
+        text, "purge.side_fraction", "purge.mass_flow_side", "200 kg/h", "5 %", "90 %", "purge_side_fraction"
+    )
+    assert tomllib.loads(again)["specifications"]["purge_side_fraction"]["equals"] == "200 kg/h"
+    assert "specifications" not in tomllib.loads(b.remove_specification(again, "purge_side_fraction"))
+    with pytest.raises(GranumError, match="purge"):
+        b.set_specification(text, "purge.side_share", "purge.mass_flow_side", "1 kg/h", "1 %", "2 %")
+
+
+def test_a_feed_is_the_same_stream_in_either_form_and_its_shares_add_up() -> None:
+    text = b.add_feed(b.new_line("Slurry", ["water"], ["quartz"]), "slurry")
+    text = b.add_unit(text, "streams.heater", origin="slurry")
+    totals = b.form_of_feed(text, "slurry", "totals")
+    table = tomllib.loads(totals)["feeds"]["slurry"]
+    assert (table["mass_flow"], table["solids_mass_fraction"]) == ("1200 kg/h", "16.66666667 %")
+    back = tomllib.loads(b.form_of_feed(totals, "slurry", "phases"))["feeds"]["slurry"]
+    assert back["liquid_flow"] == "1000 kg/h"
+    mixed = b.add_feed(b.new_line("Salt", **SALT), "liquor")
+    shares = tomllib.loads(b.share_of_feed(mixed, "liquor", "liquid", "potassium nitrate", "55,5 %"))[
+        "feeds"
+    ]["liquor"]["liquid"]
+    assert shares == {"water": "44.5 %", "potassium nitrate": "55,5 %"}
+    with pytest.raises(InputError, match="100 %"):
+        b.share_of_feed(mixed, "liquor", "liquid", "potassium nitrate", "120 %")
+
+
+def test_substances_are_changed_and_feeds_follow() -> None:
+    text = b.add_feed(b.new_line("Salt", **SALT), "liquor")
+    text = b.choose_substances(text, ["water", "sucrose"], ["sucrose"])
+    assert tomllib.loads(text)["feeds"]["liquor"]["liquid"] == {"water": "100 %"}
+    with pytest.raises(GranumError):
+        b.choose_substances(text, ["watr"], [])
+    with pytest.raises(GranumError):
+        b.new_line("Nothing")
+
+
+def test_a_fit_with_its_data_goes_into_the_case() -> None:
+    text = Path("examples/lab-to-plant/line.toml").read_text(encoding="utf-8")
+    data = Path("examples/lab-to-plant/leaf_test.csv").read_text(encoding="utf-8")
+    conditions = tomllib.loads(text)["fits"]["leaf_test"]["conditions"]
+    used = b.use_fit(
+        text,
+        "press",
+        "filtration.leaf_test",
+        data,
+        conditions,
+        ["cake_resistance", "medium_resistance", "nothing"],
+    )
+    table = tomllib.loads(used)["fits"]["leaf_test"]
+    assert table["data"] == data
+    assert set(table["gives"]) == {"press.cake_resistance", "press.medium_resistance"}
+    line = read_text(used)  # no file beside it
+    beside = read_text(text, folder=Path("examples/lab-to-plant"))
+    assert float(line.sheet.value("press.cake_resistance")) == pytest.approx(
+        float(beside.sheet.value("press.cake_resistance"))
+    )
+    with pytest.raises(InputError, match="none of what"):
+        b.use_fit(text, "press", "filtration.leaf_test", data, conditions, ["nothing"])
+
+
+@pytest.mark.parametrize("model", EQUIPMENT)
+def test_every_piece_of_equipment_has_values_to_start_from(model: str) -> None:
+    text = b.new_line(
+        "Any", ["water", "potassium nitrate"], ["potassium nitrate", "quartz"], ["dry air", "water"]
+    )
+    text = b.add_unit(text, model)
+    values = tomllib.loads(text)["units"]
+    ((name, table),) = values.items()
+    registry.find(model)(**{k: v for k, v in table.items() if k != "model"})
+    assert not [m for m in outline(text).missing if "missing" in m]
+    assert f'data-unit="{name}"' in draw(outline(text), growing=True)
+
+
+def comments(text: str) -> set[str]:
+    """Comments of a text by what they say."""
+    return {
+        line.partition("#")[2].strip()
+        for line in text.split("\n")
+        if "#" in line and not line.strip().startswith('"')
+    }
+
+
+@pytest.mark.parametrize(
+    "path",
+    [p for p in EXAMPLES if "[units." in p.read_text(encoding="utf-8")],
+    ids=lambda p: f"{p.parent.name}-{p.stem}",
+)
+def test_an_operation_on_an_example_leaves_everything_else_as_it_was(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    found = outline(text)
+    assert found.missing == ()
+    assert draw(found).count("data-unit") == len(found.order)
+    for unit in found.order:
+        renamed = b.rename(text, unit, f"{unit}_x")
+        assert comments(renamed) == comments(text)
+        assert len(renamed.split("\n")) == len(text.split("\n"))
+        there, back = tomllib.loads(renamed), tomllib.loads(b.rename(renamed, f"{unit}_x", unit))
+        assert back == tomllib.loads(text), unit
+        assert (
+            f'"{unit}.'
+            not in json.dumps({k: v for k, v in there.items() if k not in ("title", "description", "units")})
+            or unit in found.feeds
+        )
+        out = b.remove(text, unit)
+        gone = set(tomllib.loads(text)["units"]) - set(tomllib.loads(out).get("units", {}))
+        assert gone == {unit}
+        own = next(s for s in sections(text) if s.path == ("units", unit))
+        inside = comments("\n".join(text.split("\n")[own.first : own.last]))
+        streams = comments("\n".join(line for line in text.split("\n") if unit in line))
+        assert comments(text) - comments(out) <= inside | streams
+    for model in ("streams.heater", "filtration.nutsche"):
+        added = b.add_unit(text, model)
+        assert [line for line in text.split("\n") if line not in added.split("\n")] == []
+
+
+OPERATIONS = (
+    "add_unit",
+    "add_feed",
+    "connect",
+    "disconnect",
+    "remove",
+    "rename",
+    "bypass",
+    "share",
+    "form",
+    "spec",
+    "odd",
+)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_operations_never_leave_a_text_that_cannot_be_read(seed: int) -> None:
+    rng = random.Random(seed)
+    text = "# mine: keep\n" + b.new_line(
+        "Random", ["water", "sucrose"], ["sucrose", "quartz"], ["dry air", "water"][: 2 * (seed % 2)]
+    )
+    for _step in range(40):
+        found = outline(text)
+        ends = [k.origin or k.name for k in found.links] or ["nothing"]
+        inlets = [f"{u}.{p}" for u in found.order for p in (found.units[u].inlet_names() or ("feed",))] or [
+            "none.feed"
+        ]
+        anything = [*found.order, *found.feeds, "nothing"]
+        operation = rng.choice(OPERATIONS)
+        try:
+            if operation == "add_unit":
+                after = b.add_unit(text, rng.choice(EQUIPMENT), origin=rng.choice(["", *ends]))
+            elif operation == "add_feed":
+                after = b.add_feed(
+                    text, rng.choice(["", "Eau chaude", "feed", "x.y"]), rng.choice(["", *inlets])
+                )
+            elif operation == "connect":
+                after = b.connect(text, rng.choice(ends), rng.choice(inlets))
+            elif operation == "disconnect":
+                after = b.disconnect(text, rng.choice([*ends, *inlets]))
+            elif operation == "remove":
+                after = b.remove(text, rng.choice(anything)) if rng.random() < 0.5 else text
+            elif operation == "rename":
+                after = b.rename(
+                    text,
+                    rng.choice(anything),
+                    rng.choice(["Bac à eau", "a.b", "", "mixer", "n°", 'quote"s', "# x"]),
+                )
+            elif operation == "bypass":
+                after = b.bypass(text, rng.choice(anything))
+            elif operation == "share":
+                after = b.share_of_feed(
+                    text,
+                    rng.choice(anything),
+                    "liquid",
+                    rng.choice(["water", "sucrose"]),
+                    rng.choice(["30 %", "2", "x", ""]),
+                )
+            elif operation == "form":
+                after = b.form_of_feed(text, rng.choice(anything), rng.choice(["totals", "phases", "?"]))
+            elif operation == "spec":
+                after = b.set_specification(
+                    text,
+                    f"{rng.choice(anything)}.temperature",
+                    f"{rng.choice(anything)}.mass_flow",
+                    "1 kg/h",
+                    "1",
+                    "2",
+                )
+            else:
+                after = b.choose_substances(
+                    text, ["water", rng.choice(["sucrose", "ethanol", "water"])], ["sucrose", "quartz"]
+                )
+        except GranumError:  # refused in words; anything else is a fault
+            continue
+        raw = tomllib.loads(after)
+        assert after.startswith("# mine: keep\n")
+        now = outline(after)
+        drawn = draw(now, growing=True, loose=now.open_inlets)
+        assert all(f'data-unit="{u}"' in drawn for u in now.order)
+        assert len(set(now.order)) == len(raw.get("units", {}))
+        targets = [k.target for k in now.links if k.target]
+        assert len(targets) == len(set(targets)), "two streams into one inlet"
+        origins = [k.origin for k in now.links if k.origin]
+        assert len(origins) == len(set(origins))
+        text = after
+
+
+def test_text_that_is_no_case_is_refused_in_words() -> None:
+    for text in ("title = ", "[units.x", "\x00"):
+        with pytest.raises(CaseError, match="TOML"):
+            b.add_feed(text)
+
+
+@pytest.mark.parametrize(
+    ("enters", "models"),
+    [
+        ("solution", ["crystallization.msmpr", "crystallization.vacuum_crystallizer", "streams.heater"]),
+        ("suspension", ["settling.thickener", "filtration.chamber_press", "cyclones.hydrocyclone"]),
+        ("moist_solid", ["drying.well_mixed_dryer", "drying.convective_dryer", "drying.rotary_dryer"]),
+        ("dusty_gas", ["cyclones.gas_cyclone"]),
+    ],
+)
+def test_a_line_is_solved_as_soon_as_its_first_piece_stands(enters: str, models: list[str]) -> None:
+    begun = b.begin("First", enters)
+    for model in models:
+        run = read_text(b.add_unit(begun, model, origin=enters)).solve()
+        assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
+
+
+def test_a_line_of_another_size_gets_machines_of_that_size() -> None:
+    begun = (
+        b.begin("Large", "suspension")
+        .replace('"1000 kg/h"', '"10000 kg/h"')
+        .replace('"200 kg/h"', '"2000 kg/h"')
+    )
+    small = tomllib.loads(b.add_unit(b.begin("Small", "suspension"), "filtration.chamber_press"))["units"][
+        "filter"
+    ]
+    large = tomllib.loads(b.add_unit(begun, "filtration.chamber_press"))["units"]["filter"]
+    assert (small["area"], large["area"]) == ("25 m2", "300 m^2")
+    assert small["chamber_depth"] == large["chamber_depth"]

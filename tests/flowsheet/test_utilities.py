@@ -1,0 +1,151 @@
+"""What a line takes: sums of its units by hand, what other units give, energy per water."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from tests.sharing.places import EXAMPLES
+
+import granum as gr
+from granum.core.errors import InputError
+from granum.costs.formulas.emissions import emission_factor
+from granum.flowsheet import Flowsheet
+from granum.streams.equipment.basics import Heater
+from granum.streams.equipment.movers import Fan, Pump
+from granum.streams.from_materials import mixture_of
+from granum.streams.stream import empty
+
+GAS = mixture_of(["water"], ["calcite"], ["dry air", "water"], [1e-6, 1e-5, 1e-4])
+STARCH = EXAMPLES / "starch-drying" / "line.toml"
+
+
+def air(flow: float = 1.0, temperature: float = 300.0):
+    return empty(GAS, temperature).replace(gas=np.array([flow, 0.0]))
+
+
+@pytest.fixture(scope="module")
+def starch():
+    return gr.read(STARCH).solve()
+
+
+def test_the_line_is_the_sum_of_its_units(starch) -> None:
+    told = json.loads(json.dumps(starch.as_json()))
+    rows = [use for unit in told["units"].values() for use in unit["utilities"].values() if use["counted"]]
+    heat = told["units"]["heater"]["results"]["heat_duty"]["value"]
+    fans = sum(use["value"] for use in rows if use["carrier"] == "electricity")
+    line = told["utilities"]
+    assert line["heat_input"]["value"] == pytest.approx(heat, rel=1e-12)
+    assert line["electric_power"]["value"] == pytest.approx(fans, rel=1e-12)
+    water = told["units"]["dryer"]["results"]["evaporation_rate"]["value"]
+    assert line["energy_per_water"]["value"] == pytest.approx((heat + fans) / water, rel=1e-12)
+    assert line["product"] == "starch"
+    made = told["streams"]["starch"]["mass_flow"]["value"]
+    assert line["energy_per_product"]["value"] == pytest.approx((heat + fans) / made, rel=1e-12)
+    gas = heat * emission_factor("medium_pressure_steam") + fans * emission_factor("electricity")
+    assert line["greenhouse_gas_rate"]["value"] == pytest.approx(gas, rel=1e-9)
+
+
+def test_convective_drying_takes_what_the_notes_say(starch) -> None:
+    """Table III.2 of the notes on drying: 3 300 to 6 500 kJ/kg, 1.5 to 3 times the heat of vaporization."""
+    assert 3.3e6 < starch.utilities.energy_per_water < 6.5e6
+    assert 1.5 < starch.utilities.energy_consumption_ratio < 3.0
+
+
+def test_heat_of_the_heater_is_not_counted_again_in_the_dryer(starch) -> None:
+    dryer = starch.units["dryer"]
+    assert dryer.uses["heat_input_hot_gas"] > 0.0
+    assert "heat_input_hot_gas" not in dryer.counted
+
+
+def test_a_fan_in_the_line_pays_for_the_pressure_lost() -> None:
+    line = gr.read(STARCH).sheet
+    units = dict(line.units) | {"fan": Fan(pressure_rise=3000.0)}
+    links = {k.name: (k.origin, k.target) for k in line.links if "." not in k.name}
+    links["exhaust"] = ("cyclones.gas", "fan.feed")
+    run = Flowsheet(units, line.feeds, links).solve()
+    assert "electric_power_fan" not in run.units["dryer"].counted
+    assert "electric_power_fan" not in run.units["cyclones"].counted
+    fan = run.units["fan"]
+    assert run.utilities.electric_power == pytest.approx(float(fan.uses["electric_power_drive"]), rel=1e-12)
+    assert float(fan.uses["electric_power_drive"]) == pytest.approx(
+        float(fan.values.shaft_power) / 0.9, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    ("temperature", "carrier"),
+    [
+        (400.0, "heat_input_low_pressure_steam"),
+        (440.0, "heat_input_medium_pressure_steam"),
+        (500.0, "heat_input_high_pressure_steam"),
+        (600.0, "heat_input_fuel_gas"),
+        (290.0, "cooling_input_chilled_water"),
+        (270.0, "cooling_input_brine"),
+        (240.0, "cooling_input_deep_cold"),
+    ],
+)
+def test_a_temperature_chooses_its_carrier(temperature: float, carrier: str) -> None:
+    run = Flowsheet({"h": Heater(temperature)}, {"air": air()}, {"air": ("", "h.feed")}).solve()
+    uses = {name: float(x) for name, x in run.units["h"].uses.items() if float(x) > 0.0}
+    assert list(uses) == [carrier]
+    assert uses[carrier] == pytest.approx(abs(run.figure("h.heat_duty")), rel=1e-12)
+
+
+def test_hot_gas_from_outside_counts() -> None:
+    """Cooled from 500 K to 480 K: what it brought is not the heater's to count, its cold is."""
+    run = Flowsheet({"h": Heater(480.0)}, {"air": air(temperature=500.0)}, {"air": ("", "h.feed")}).solve()
+    assert run.utilities.heat_input == 0.0
+    assert run.carriers["cooling_water"] == pytest.approx(-run.figure("h.heat_duty"))
+    assert math.isnan(run.utilities.energy_per_water)
+    assert "energy_per_water" not in run.as_json()["utilities"]
+
+
+def test_a_pump_and_a_fan_close_and_warm() -> None:
+    slurry = empty(GAS, 300.0).replace(liquid=np.array([10.0]), solid=np.array([[0.5, 0.5]]))
+    run = Flowsheet(
+        {"p": Pump(5e5), "f": Fan(8e3)},
+        {"slurry": slurry, "air": air()},
+        {"slurry": ("", "p.feed"), "air": ("", "f.feed")},
+    ).solve()
+    assert run.audit["energy_closure"] <= 1e-9
+    volume = float(slurry.slurry_volume_flow)
+    assert run.figure("p.shaft_power") == pytest.approx(volume * 5e5 / 0.7, rel=1e-12)
+    # an ideal gas at 300 K: T2/T1 = 1 + ((p2/p1)^0.2857 - 1)/0.65
+    ideal = 300.0 * (1.0 + ((101325.0 + 8e3) / 101325.0) ** (1.0 / 3.5) / 0.65 - 1.0 / 0.65)
+    assert run.figure("f.temperature") == pytest.approx(ideal, abs=0.1)
+
+
+def test_studies_watch_what_is_taken() -> None:
+    found = gr.studies.sweep(
+        gr.read(STARCH),
+        {"heater.temperature": [420.0, 428.15]},
+        outputs=[
+            "utilities.energy_per_water",
+            "cyclones.electric_power_fan",
+            "utilities.greenhouse_gas_rate",
+        ],
+    )
+    run = gr.read(STARCH).solve()
+    assert float(found.dataset["utilities.energy_per_water"].values[-1]) == pytest.approx(
+        run.utilities.energy_per_water, rel=1e-6
+    )
+    assert float(found.dataset["cyclones.electric_power_fan"].values[-1]) == pytest.approx(
+        float(run.units["cyclones"].uses["electric_power_fan"]), rel=1e-6
+    )
+
+
+def test_what_a_line_pays(starch) -> None:
+    """By hand: heat at 30 USD/MWh, electricity at 0.10 USD/kWh; a price that is missing or of nothing is
+    told.
+    """
+    prices = {"electricity": "0.10 USD/kWh", "medium_pressure_steam": "30 USD/MWh"}
+    power, heat = starch.carriers["electricity"], starch.carriers["medium_pressure_steam"]
+    by_hand = power * 0.10 / 3.6e6 + heat * 30.0 / 3.6e9
+    assert starch.utility_cost(prices) == pytest.approx(by_hand, rel=1e-12)
+    with pytest.raises(InputError, match="also takes medium_pressure_steam"):
+        starch.utility_cost({"electricity": "0.10 USD/kWh"})
+    with pytest.raises(InputError, match="steam"):
+        starch.utility_cost(prices | {"steam": "1 USD/MWh"})
