@@ -87,6 +87,7 @@ def aggregation_constant_shear(solids_volume_fraction: Fraction, capture_efficie
     typical=_TANK
     | {"aggregation_constant": (1e-5, 1e-3), "breakage_constant": (1e-8, 1e-6), "tank_number": (1, 6)},
     output="flocculation_ratio",
+    symbols={"residence_time": "T"},
     title="Growth of flocs in mixed tanks",
 )
 def flocculation_ratio_tanks(
