@@ -1,5 +1,4 @@
-"""Flocculation: tanks balanced one by one, limits of the law, flocs that settle as their fractal says.
-"""
+"""Flocculation: tanks balanced one by one, limits of the law, flocs that settle as their fractal says."""
 
 from __future__ import annotations
 
