@@ -102,7 +102,7 @@ def test_an_input_is_found_for_a_wanted_result(page: Page, language: str) -> Non
     page.until(lambda: page.fresh() and page.one(VALUE).text.replace(",", ".").startswith("21.12"))
     page.type("#wanted", "-1")
     page.until(
-        lambda: {"en": "is not reached", "fr": "n'est atteint"}[language] in page.one("#wanted-note").text
+        lambda: {"en": "is not reached", "fr": "n’est atteint"}[language] in page.one("#wanted-note").text
     )
     page.browser.get_log("browser")
     page.check()

@@ -66,7 +66,7 @@ def coarsen(edges: Any, growth: Any) -> Any:
     "flocculator",
     source="argaman1970; camp1943; jiang1991",
     title="Flocculator",
-    equation=r"\frac{N_0}{N_m} = \frac{(1 + K_A G T/m)^m}{1 + K_B G^2\,\frac{T}{m}\sum_i (1 + K_A G T/m)^i}",
+    equation=r"\frac{N_0}{N} = \frac{(1 + K_A G T/m)^m}{1 + K_B G^2\,\frac{T}{m}\sum_i (1 + K_A G T/m)^i}",
 )
 class Flocculator(Unit):
     """Equal stirred tanks in series after a coagulant: shear brings grains together and breaks flocs, and

@@ -81,7 +81,7 @@ def aggregation_constant_shear(solids_volume_fraction: Fraction, capture_efficie
 @formula(
     source="argaman1970",
     equation=(
-        r"\frac{N_0}{N_m} = \frac{(1 + K_A G T/m)^m}{1 + K_B G^2\,\frac{T}{m}"
+        r"\frac{N_0}{N} = \frac{(1 + K_A G T/m)^m}{1 + K_B G^2\,\frac{T}{m}"
         r"\sum_{i=0}^{m-1}(1 + K_A G T/m)^i}"
     ),
     typical=_TANK
