@@ -72,7 +72,7 @@ def test_each_step_says_what_is_missing() -> None:
     assert set(outline(text).missing) == {"Filter has no feed yet.", "Slurry goes nowhere yet."}
     assert outline(b.connect(text, "slurry", "filter.feed")).missing == ()
     with language("fr"):
-        assert "Filter n'a pas encore d'alimentation." in outline(text).missing
+        assert "Filter n’a pas encore d’alimentation." in outline(text).missing
 
 
 def test_names_are_of_the_language_and_free() -> None:
