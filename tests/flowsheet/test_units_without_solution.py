@@ -11,7 +11,7 @@ import pytest
 
 import granum as gr
 from granum.core import registry
-from granum.core.errors import ConvergenceError
+from granum.core.errors import ApplicabilityError, ConvergenceError
 from granum.crystallization.equipment import msmpr
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.run import Line
@@ -20,6 +20,7 @@ from granum.streams.equipment.agglomerator import settle
 from granum.streams.equipment.basics import Heater, Mixer, Single
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
+from granum.studies.lines import LineSubject
 
 WET = """
 [mixture]
@@ -231,6 +232,20 @@ def test_a_crystallizer_beyond_the_data_of_its_solubility_says_so(tmp_path: Path
         "batch": {"vessel.temperature_program.temperature_start": 303.15},
     }[kind]
     assert not [row for row in line.with_values(**inside).solve().flags if "paracetamol" in row["card"]]
+
+
+def test_a_stirrer_in_a_solution_of_unknown_viscosity_is_not_told(tmp_path: Path) -> None:
+    """What only a utility asks for makes no line fail: the stirrer is left out, the cold is told."""
+    line = vessel(tmp_path / "line.toml", "continuous", "20 degC")
+    run = line.solve()
+    assert "electric_power_agitator" not in run.units["vessel"].uses
+    assert "electric_power_agitator" not in run.as_json()["units"]["vessel"]["utilities"]
+    assert run.utilities.cooling_input == pytest.approx(-float(run.units["vessel"].values.heat_duty))
+    assert run.utilities.electric_power == 0.0
+    subject, watched = LineSubject.of(line), "vessel.electric_power_agitator"
+    computed = subject.compute(subject.arrays(), {}, (watched,), subject.begin())
+    with pytest.raises(ApplicabilityError, match="is not known of this line"):
+        computed.lookup(watched)
 
 
 def test_a_mill_with_nothing_to_take_its_power() -> None:

@@ -170,7 +170,8 @@ class UnitReport:
 
     def utilities(self) -> Iterator[tuple[Parameter, Any]]:
         """Each utility with its declaration."""
-        yield from ((use.parameter, self.uses[use.parameter.name]) for use in self.model.card.utilities)
+        told = (use.parameter for use in self.model.card.utilities if use.parameter.name in self.uses)
+        yield from ((p, self.uses[p.name]) for p in told)
 
     def parameters(self) -> Iterator[tuple[Parameter, Any]]:
         """Each parameter of the unit with its value."""

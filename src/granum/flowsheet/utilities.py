@@ -111,7 +111,7 @@ def by_carrier(line: Flowsheet, uses: Mapping[str, Mapping[str, Any]]) -> dict[s
     found: dict[str, Any] = {}
     for unit, names in counted(line).items():
         for name in names:
-            if (what := carrier(name)) != "area":
+            if (what := carrier(name)) != "area" and name in uses[unit]:
                 found[what] = found.get(what, 0.0) + uses[unit][name]
     return found
 
@@ -126,7 +126,12 @@ def totals(
     names = counted(line)
 
     def total(sort: str) -> Any:
-        rows = [uses[unit][n] for unit, own in names.items() for n in own if sort_of(n) == sort]
+        rows = [
+            uses[unit][n]
+            for unit, own in names.items()
+            for n in own
+            if sort_of(n) == sort and n in uses[unit]
+        ]
         return sum(rows, jnp.zeros(()))
 
     electricity, heat, cold = (total(sort) for sort in (ELECTRICITY, HEAT, COOLING))

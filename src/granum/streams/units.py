@@ -54,7 +54,7 @@ class Operated(NamedTuple):
     checks: the limits of the class with what was measured. inside: what was worked out on the way, for charts
         and holdups.
     records: what formulas flagged meanwhile.
-    uses: the utilities of the class with how much of each is taken, SI.
+    uses: the utilities of the class with how much of each is taken, SI, as far as it can be known.
     """
 
     outlets: Any
@@ -109,7 +109,7 @@ class Unit(eqx.Module):
         return {}
 
     def drawn(self, inside: Any, outlets: Any, figures: Any, *args: Any, **inlets: Any) -> dict[str, Any]:
-        """How much of each utility is taken, SI."""
+        """How much of each utility is taken, SI; ``None`` where that cannot be known of these streams."""
         return {}
 
     @final
@@ -128,7 +128,11 @@ class Unit(eqx.Module):
                 measured = self.measured(inside, outlets, figures, **inlets)
                 checks = tuple(self._checked(x, measured[n]) for n, x in self.limits.items() if n in measured)
                 drawn = self.drawn(inside, outlets, figures, **inlets)
-                uses = {name: jnp.asarray(drawn[name], dtype=float) for name in self.utilities}
+                uses = {
+                    name: jnp.asarray(drawn[name], dtype=float)
+                    for name in self.utilities
+                    if drawn[name] is not None
+                }
         flags.hand_on(records)
         return Operated(outlets, figures, checks, inside, records, uses)
 

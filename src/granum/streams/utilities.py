@@ -12,6 +12,7 @@ from typing import Any
 import jax.numpy as jnp
 
 from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.errors import ApplicabilityError, InputError
 from granum.core.utilities import Utility
 from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.drives import (
@@ -89,17 +90,23 @@ def ducted(gas: Stream, more: Any = 0.0) -> Any:
 
 def suspended(slurry: Stream, volume: Any) -> Any:
     """Electric power of pitched blades that just keep the solid of a slurry off the bottom of upright vessels
-    as high as wide, W; nothing without solid.
+    as high as wide, W; nothing without solid, and not told (``None``) where a property of the slurry is
+    unknown that only this asks for.
     """
+    try:
+        liquid_viscosity, liquid_density = slurry.liquid_viscosity, slurry.liquid_density
+        solid_density = slurry.solid_density
+    except (ApplicabilityError, InputError):
+        return None
     some = (slurry.solid_flow > 0.0) & (slurry.liquid_flow > 0.0) & (volume > 0.0)
     width = (4.0 * jnp.where(volume > 0.0, volume, 1.0) / jnp.pi) ** (1.0 / 3.0)
     shares = jnp.sum(slurry.size_fractions * slurry.mixture.sizes)
     speed = rotation_speed_zwietering(
         width / 3.0,
         jnp.where(some, shares, 1e-4),
-        slurry.solid_density,
-        slurry.liquid_density,
-        slurry.liquid_viscosity,
+        solid_density,
+        liquid_density,
+        liquid_viscosity,
         jnp.where(some, safe_divide(slurry.liquid_flow, slurry.solid_flow), 1.0),
     )
     density = safe_divide(slurry.solid_flow + slurry.liquid_flow, slurry.slurry_volume_flow, 1000.0)

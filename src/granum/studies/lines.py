@@ -19,7 +19,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
-from granum.core.errors import InputError, unknown_name
+from granum.core.errors import ApplicabilityError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
@@ -258,7 +258,15 @@ class LineSubject(Subject):
                     value = getattr(found.solution.sheets[unit][0], name)
                     return value if index is None else value[index]
                 if name in type(thing).utilities:
-                    return found.solution.sheets[unit].uses[name]
+                    uses = found.solution.sheets[unit].uses
+                    if name not in uses:
+                        raise ApplicabilityError(
+                            _(
+                                "'{name}' is not known of this line: the library lacks a property that it "
+                                "needs, such as the viscosity of the solution."
+                            ).format(name=plain)
+                        )
+                    return uses[name]
                 if name in thing.power_names():
                     return found.solution.powers[unit][name]
             if unit == UTILITIES and name in FIGURES:
