@@ -31,6 +31,7 @@ from granum.filtration.formulas.deliquoring import (
     saturation_after_deliquoring,
 )
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
+from granum.numerics.smooth import safe_divide
 from granum.streams.cake_maker import CakeMaker
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
@@ -202,8 +203,8 @@ class CakeFilter(CakeMaker):
         )
 
     def gas_flow(self, inside: Caked, feed: Stream, pressure: Any, pressure_outlet: Any) -> Any:
-        """Gas that blows through the drained cake, m³/s at its outlet and per area; at the saturation of the
-        end, when most passes.
+        """Gas that blows through the drained cake and its medium, m³/s at its outlet and per area; at the
+        saturation of the end, when most passes.
         """
         s, thick = inside.slurry, jnp.maximum(inside.plan.cake_thickness, 1e-9)
         lowest = irreducible_saturation(
@@ -224,7 +225,9 @@ class CakeFilter(CakeMaker):
             AIR_VISCOSITY,
             jnp.clip((inside.saturation - lowest) / (1.0 - lowest), 0.0, 1.0),
         )
-        return jnp.where(feed.solid_flow > 0.0, velocity, 0.0)
+        medium = AIR_VISCOSITY * jnp.maximum(self.media_resistance(), OPEN)
+        bare = (pressure**2 - pressure_outlet**2) / (2.0 * pressure_outlet * medium)
+        return jnp.where(feed.solid_flow > 0.0, safe_divide(velocity * bare, velocity + bare), 0.0)
 
     def inside(self, feed: Stream, wash: Stream | None = None) -> Caked:
         s = self.slurry(feed, wash)
