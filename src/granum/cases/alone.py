@@ -33,6 +33,17 @@ def _written(domain: str) -> dict[str, Any]:
     return tomllib.loads(place.read_text(encoding="utf-8")) if place.is_file() else {}
 
 
+def ordinary(key: str) -> dict[str, Any]:
+    """The parameters with which a piece of equipment opens alone.
+
+    >>> ordinary("streams.pump")
+    {'pressure_rise': '4 bar'}
+    """
+    domain, name = key.split(".", 1)
+    own = _written(domain).get("unit", {}).get(name, {})
+    return {word: copy.deepcopy(value) for word, value in own.items() if word != "in"}
+
+
 def _equipment(key: str) -> Any:
     thing = registry.find(key)
     if thing.card.sort != "equipment":

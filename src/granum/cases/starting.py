@@ -8,6 +8,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from granum.cases.alone import ordinary
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.materials.library import session
@@ -49,7 +50,8 @@ def starting_values(model: str, mixture: Mapping[str, Any]) -> dict[str, Any]:
             )
         return words.get(value, value) if isinstance(value, str) else value
 
-    return {k: filled(v) for k, v in _table().get(domain, {}).get(name, {}).items()}
+    found = _table().get(domain, {}).get(name) or ordinary(model)
+    return {k: filled(v) for k, v in found.items()}
 
 
 def listed(mixture: Mapping[str, Any], phase: str) -> list[str]:
