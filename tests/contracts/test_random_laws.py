@@ -74,7 +74,7 @@ def test_one_value_outside_the_bounds_of_its_kind_is_refused_and_is_none_in_an_a
         model_factor=1.0, rate_constant=1e-3, time_exponent=1.0, time_slope=-1e-5
     )
     assert law(0.0) == 1.0
-    with pytest.raises(ApplicabilityError, match=r"= -0\.2 is outside what is possible"):
+    with pytest.raises(ApplicabilityError, match=r"= −0\.2 is outside what is possible"):
         law(20_000.0)
     curve = law(np.array([0.0, 20_000.0]))
     assert curve[0] == 1.0

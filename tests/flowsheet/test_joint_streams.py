@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.cases.alone import ordinary
 from granum.core import registry
 from granum.flowsheet.packing import compiled
 from granum.streams.from_materials import mixture_of
@@ -251,7 +252,21 @@ OTHERS = {
         "vapor_resistance_slope": "16 cm*hour*torr/g",
     },
 }
-ALL = SLURRY | WASHED | POWDER | GAS | LIQUOR | OTHERS
+AS_ALONE = (  # with the values with which they open by themselves
+    "centrifuges.disc_purifier",
+    "centrifuges.disc_separator",
+    "centrifuges.nozzle_separator",
+    "centrifuges.three_phase_decanter",
+    "centrifuges.tubular_separator",
+    "dust.bag_filter",
+    "dust.electrostatic_precipitator",
+    "dust.settling_chamber",
+    "dust.venturi_scrubber",
+    "settling.flocculator",
+    "streams.fan",
+    "streams.pump",
+)
+ALL = SLURRY | WASHED | POWDER | GAS | LIQUOR | OTHERS | {key: ordinary(key) for key in AS_ALONE}
 
 
 @cache
@@ -289,6 +304,12 @@ def feeds(liquids: tuple[str, ...]) -> dict[str, Stream]:
 SPECIAL = {
     "streams.mixer": {"one": "slurry", "two": "dusty air"},
     "streams.humid_mixer": {"one": "wet air", "two": "air"},
+    "streams.fan": {"feed": "dusty air"},
+    "streams.pump": {"feed": "slurry"},
+    "dust.bag_filter": {"feed": "dusty air"},
+    "dust.electrostatic_precipitator": {"feed": "dusty air"},
+    "dust.settling_chamber": {"feed": "dusty air"},
+    "dust.venturi_scrubber": {"feed": "dusty air", "water": "water"},
     "streams.adiabatic_humidifier": {"gas": "air", "water": "water"},
     "streams.condenser_cooler": {"gas": "wet air"},
     "streams.dehumidifying_coil": {"gas": "wet air"},

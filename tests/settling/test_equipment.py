@@ -172,7 +172,7 @@ def test_clarifier_thickener_agrees_with_flux_theory_and_with_its_own_simulation
         liquid=jnp.array([(1 - 2.5 / 2650) * 800 / 3.6]),
     )
     unit = ClarifierThickener(1000.0, 4.0, "300 m^3/hour", law, settling_time="4 day")
-    out, figures, checks, course, _records = unit.operate(feed=slurry)
+    out, figures, checks, course, *_rest = unit.operate(feed=slurry)
     assert float(figures.underflow_concentration) == pytest.approx(2.5 * 800 / 300, rel=1e-9)
     assert float(out.underflow.slurry_volume_flow) * 3600 == pytest.approx(300.0, rel=1e-9)
     assert float(course.underflow_concentration[-1]) == pytest.approx(

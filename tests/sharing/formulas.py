@@ -20,6 +20,7 @@ def own_formula(function: Callable[..., Any]) -> Formula:
         title=function.__name__,
         output="ratio",
         family="",
+        symbols={},
     )
     _declared.pop(made.key)
     _families.pop("ratio", None)
