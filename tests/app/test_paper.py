@@ -95,11 +95,19 @@ def test_no_card_is_cut_at_any_width(page: Page, card: str) -> None:
 @pytest.mark.parametrize(("language", "typed", "wanted"), [("en", "42.5", "1.32"), ("fr", "42,5", "1,32")])
 def test_the_result_stays_in_sight_on_a_phone(page: Page, language: str, typed: str, wanted: str) -> None:
     page.open(STOKES, language, width=390)
+    low = {
+        "width": 390,
+        "height": 560,
+        "deviceScaleFactor": 1,
+        "mobile": False,
+    }  # above a keyboard
+    page.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", low)
     field = page.one("#field-particle_diameter")
     page.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", field)
     page.until(lambda: page.one(".pinned").is_displayed())
     page.type("#field-particle_diameter", typed)
-    page.until(lambda: page.one(".pinned strong").text.startswith(wanted))  # a quarter of 5.28 mm/s
+    told = "return document.querySelector('.pinned strong')?.textContent ?? ''"
+    page.until(lambda: page.browser.execute_script(told).startswith(wanted))  # a quarter of 5.28 mm/s
     page.check()
     page.browser.execute_script("document.querySelector('[data-output]').scrollIntoView({block: 'center'})")
     page.until(lambda: not page.one(".pinned").is_displayed())
