@@ -15,6 +15,7 @@ from typing import Any
 
 import tomlkit
 
+from granum.cases.alone import tables
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, pretty, table_of
 from granum.cases.reading import parsed, quantity
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
@@ -276,13 +277,16 @@ def _first_inlet(ports: tuple[str, ...] | None, origin: str) -> str:
 
 
 def _scaled(model: str, made: Mapping[str, Any], found: Outline) -> dict[str, Any]:
-    """Sizes of vessels and machines for a line that is far from a tonne an hour, in proportion."""
-    tonnes = _entering(found) / (1000.0 / 3600.0)
-    if tonnes <= 0.0 or 0.2 < tonnes < 5.0:
+    """Sizes of vessels and machines for a line far larger or smaller than what they are fed alone, in
+    proportion.
+    """
+    alone = _entering(tables(model)["feeds"])
+    times = _entering(table_of(found.raw, "feeds")) / alone if alone > 0.0 else 1.0
+    if times <= 0.0 or 0.5 < times < 2.0:
         return {}
     parameters = (p for p in registry.find(model).card.parameters if p.name in EXTENSIVE and p.name in made)
     return {
-        p.name: f"{float(f'{tonnes * float(convert(made[p.name], p)):.2g}'):.10g} {p.kind.unit}"
+        p.name: f"{float(f'{times * float(convert(made[p.name], p)):.2g}'):.10g} {p.kind.unit}"
         for p in parameters
         if p.kind is not None
     }
@@ -291,10 +295,10 @@ def _scaled(model: str, made: Mapping[str, Any], found: Outline) -> dict[str, An
 EXTENSIVE = ("area", "screen_area", "volume", "holdup_mass", "shaft_power")
 
 
-def _entering(found: Outline) -> float:
+def _entering(feeds: Mapping[str, Any]) -> float:
     """Solid and liquid that the feeds bring, kg/s; unreadable ones count as nothing."""
     total = 0.0
-    for table in table_of(found.raw, "feeds").values():
+    for table in feeds.values():
         for word in ("mass_flow", "solid_flow", "liquid_flow"):
             try:
                 total += _flow(table, word)
@@ -304,17 +308,18 @@ def _entering(found: Outline) -> float:
 
 
 def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
-    """The case with a feed of hot gas to a dryer; air and the vapor of the first liquid are added to
-    substances that have none.
+    """The case with a feed of hot gas to a dryer, of ambient gas to one that heats it itself; air and the
+    vapor of the first liquid are added to substances that have none.
     """
     case = _with_vapor(case)
-    flow = GAS_PER_FEED * (_entering(found) or 1000.0 / 3600.0)
+    flow = GAS_PER_FEED * (_entering(table_of(found.raw, "feeds")) or 1000.0 / 3600.0)
     moist = table_of(table_of(found.raw, "feeds"), origin)
     if moist:
         flow = max(flow, GAS_PER_MOISTURE * _flow(moist, "liquid_flow"))
     now = outline(case)
-    gas = drying_gas(table_of(now.raw, "mixture"), flow)
-    return add_feed(case, free_name(now, _("hot_gas")), f"{unit}.gas", gas)
+    heats = "temperature_inlet" in table_of(table_of(now.raw, "units"), unit)
+    gas = drying_gas(table_of(now.raw, "mixture"), flow, heats)
+    return add_feed(case, free_name(now, _("air") if heats else _("hot_gas")), f"{unit}.gas", gas)
 
 
 def _with_vapor(case: str) -> str:
@@ -338,7 +343,7 @@ def add_wash(case: str, unit: str) -> str:
         case,
         name,
         f"{unit}.wash",
-        wash_liquor(table_of(found.raw, "mixture"), 0.1 * (_entering(found) or 0.3)),
+        wash_liquor(table_of(found.raw, "mixture"), 0.1 * (_entering(table_of(found.raw, "feeds")) or 0.3)),
     )
 
 

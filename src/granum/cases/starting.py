@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
-from granum.cases.alone import ordinary
+from granum.cases.alone import ordinary, tables
+from granum.core import registry
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.materials.library import session
@@ -22,36 +20,41 @@ SIZES = {"law": "rosin_rammler", "size_modulus": "150 um", "distribution_exponen
 PAIR = ("dry air", "water")
 
 
-@cache
-def _table() -> dict[str, dict[str, dict[str, Any]]]:
-    return tomllib.loads((files("granum.cases") / "starting.toml").read_text(encoding="utf-8"))
-
-
 def starting_values(model: str, mixture: Mapping[str, Any]) -> dict[str, Any]:
-    """The parameters a piece of equipment starts from.
+    """The parameters a piece of equipment starts from: those it opens with alone, with the substances of the
+    line in place of its own. An option that is about its own substances is left out.
 
     Parameters
     ----------
     model: key of the card. mixture: the table ``[mixture]`` of the case.
     """
-    domain, _dot, name = model.partition(".")
-    solvent, solute, crystal = crystallizing(mixture)
-    words = {"{solvent}": solvent, "{solute}": solute, "{crystal}": crystal}
+    own = crystallizing(tables(model)["mixture"])
+    here = dict(zip(own, crystallizing(mixture), strict=True))
+    needed = {p.name for p in registry.find(model).card.parameters if p.required}
 
     def filled(value: Any) -> Any:
         if isinstance(value, dict):
             return {k: filled(v) for k, v in value.items()}
-        if words.get(value if isinstance(value, str) else "", "there") == "":
+        if isinstance(value, str) and value and here.get(value) == "":
             raise InputError(
                 _(
                     "Nothing crystallizes here: choose a solute among the liquids and its crystal among the "
                     "solids first."
                 )
             )
-        return words.get(value, value) if isinstance(value, str) else value
+        return here.get(value, value) if isinstance(value, str) else value
 
-    found = _table().get(domain, {}).get(name) or ordinary(model)
-    return {k: filled(v) for k, v in found.items()}
+    return {
+        name: filled(value)
+        for name, value in ordinary(model).items()
+        if name in needed or not _speaks_of(value, own)
+    }
+
+
+def _speaks_of(value: Any, substances: tuple[str, ...]) -> bool:
+    """Whether a value names one of some substances."""
+    inside = value.values() if isinstance(value, dict) else (value,)
+    return any(_speaks_of(v, substances) if isinstance(v, dict) else bool(v) and v in substances for v in inside)
 
 
 def listed(mixture: Mapping[str, Any], phase: str) -> list[str]:
@@ -156,8 +159,8 @@ def hourly(flow: float) -> str:
     return f"{float(f'{3600.0 * flow:.2g}'):.10g} kg/h"
 
 
-def drying_gas(mixture: Mapping[str, Any], flow: float) -> dict[str, Any]:
-    """Hot gas for a dryer: of the carrier, with a little of its vapor."""
+def drying_gas(mixture: Mapping[str, Any], flow: float, ambient: bool = False) -> dict[str, Any]:
+    """Hot or ambient gas for a dryer: of the carrier, with a little of its vapor."""
     gases = listed(mixture, "gases")
     liquids = listed(mixture, "liquids")
     vapor = next((name for name in gases if name in liquids[:1]), "")
@@ -166,7 +169,7 @@ def drying_gas(mixture: Mapping[str, Any], flow: float) -> dict[str, Any]:
     if not vapor:
         shares[carrier] = "100 %"
     return {
-        "temperature": HOT_GAS,
+        "temperature": "20 degC" if ambient else HOT_GAS,
         "gas_flow": hourly(flow),
         "gas": shares,
     }
