@@ -239,6 +239,7 @@ OTHERS = {
         "kinetics": SURFACE,
         "cells": 20,
     },
+    "conveying.pneumatic_conveyor": {"diameter": "250 mm", "length_horizontal": "30 m"},
     "drying.freeze_dryer": {
         "pressure_chamber": "150 mtorr",
         "temperature_shelf": "20 degC",
@@ -305,6 +306,7 @@ SPECIAL = {
     "streams.mixer": {"one": "slurry", "two": "dusty air"},
     "streams.humid_mixer": {"one": "wet air", "two": "air"},
     "streams.fan": {"feed": "dusty air"},
+    "conveying.pneumatic_conveyor": {"feed": "cake", "gas": "wet air"},
     "streams.pump": {"feed": "slurry"},
     "dust.bag_filter": {"feed": "dusty air"},
     "dust.electrostatic_precipitator": {"feed": "dusty air"},
