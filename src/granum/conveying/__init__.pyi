@@ -6,6 +6,15 @@ from granum.conveying.equipment.pneumatic import (
     PneumaticConveyor as PneumaticConveyor,
     PneumaticFigures as PneumaticFigures,
 )
+from granum.conveying.formulas.hoppers import (
+    WallStresses as WallStresses,
+    critical_strength as critical_strength,
+    flow_factor_hopper as flow_factor_hopper,
+    half_angle_mass_flow_cone as half_angle_mass_flow_cone,
+    mass_flow_beverloo as mass_flow_beverloo,
+    outlet_width_jenike as outlet_width_jenike,
+    silo_stresses_janssen as silo_stresses_janssen,
+)
 from granum.conveying.formulas.pipes import (
     friction_factor_churchill as friction_factor_churchill,
     pressure_gradient_pipe as pressure_gradient_pipe,
@@ -27,4 +36,8 @@ from granum.conveying.formulas.thresholds import (
     saltation_velocity_rizk as saltation_velocity_rizk,
     saltation_velocity_schade as saltation_velocity_schade,
     saltation_velocity_weber as saltation_velocity_weber,
+)
+from granum.conveying.lab_tests.shear_cell import (
+    FlowFunction as FlowFunction,
+    YieldLocus as YieldLocus,
 )
