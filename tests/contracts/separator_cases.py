@@ -12,6 +12,7 @@ from granum.centrifuges.equipment.decanters import ScrollDecanter, ThreePhaseDec
 from granum.centrifuges.equipment.liquids import DiscSeparator, NozzleSeparator, TubularSeparator
 from granum.centrifuges.equipment.purifiers import DiscPurifier
 from granum.conveying.equipment.pneumatic import PneumaticConveyor
+from granum.conveying.equipment.slurry import SlurryPipeline
 from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
 from granum.dust.equipment.bag_filter import BagFilter
@@ -271,6 +272,12 @@ UNITS = {
         blown,
         lambda f, a, b, c: PneumaticConveyor(
             jnp.sqrt(f["gas"].gas_volume_flow / (0.785 * (12.0 + 15.0 * a))), 40.0 * b, 10.0 * c, 4.0 * c
+        ),
+    ),
+    "slurry pipeline": (
+        slurry,
+        lambda f, a, b, c: SlurryPipeline(
+            jnp.sqrt(f.slurry_volume_flow / (0.785 * (1.0 + 4.0 * a))), 500.0 * b, 20.0 * c
         ),
     ),
     "fan": (dusty, lambda f, a, b, c: Fan(10.0 ** (2.0 + 2.0 * a), 0.4 + 0.4 * b, 0.8 + 0.15 * c)),

@@ -6,6 +6,12 @@ from granum.conveying.equipment.pneumatic import (
     PneumaticConveyor as PneumaticConveyor,
     PneumaticFigures as PneumaticFigures,
 )
+from granum.conveying.equipment.slurry import (
+    Delivered as Delivered,
+    Pumped as Pumped,
+    SlurryFigures as SlurryFigures,
+    SlurryPipeline as SlurryPipeline,
+)
 from granum.conveying.formulas.hoppers import (
     WallStresses as WallStresses,
     critical_strength as critical_strength,
@@ -25,6 +31,13 @@ from granum.conveying.formulas.pneumatic import (
     pressure_drop_bend as pressure_drop_bend,
     pressure_gradient_solid_hinkle as pressure_gradient_solid_hinkle,
     pressure_gradient_solid_konno_saito as pressure_gradient_solid_konno_saito,
+)
+from granum.conveying.formulas.slurry import (
+    deposition_velocity_durand as deposition_velocity_durand,
+    deposition_velocity_wasp as deposition_velocity_wasp,
+    deposition_velocity_wilson as deposition_velocity_wilson,
+    pressure_gradient_slurry_durand as pressure_gradient_slurry_durand,
+    pressure_gradient_slurry_wilson as pressure_gradient_slurry_wilson,
 )
 from granum.conveying.formulas.thresholds import (
     Choked as Choked,
