@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -72,16 +74,17 @@ def test_dust_that_burns_is_checked_where_its_data_are_given() -> None:
     from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
     from granum.dust.equipment.settling_chamber import SettlingChamber
 
-    burns = {"explosible_concentration": "60 g/m3", "layer_ignition_temperature": "380 degC"}
+    burns: dict[str, Any] = {"explosible_concentration": "60 g/m3", "layer_ignition_temperature": "380 degC"}
     names = (
         "dust in the gas over its lower explosion limit",
         "ignition temperature of a layer of dust above that of the gas",
     )
-    for kind, sizes in (
+    kinds: list[Any] = [
         (BagFilter, (200.0,)),
         (ElectrostaticPrecipitator, (500.0, 4.0)),
         (SettlingChamber, (12.0, 4.0, 3.0)),
-    ):
+    ]
+    for kind, sizes in kinds:
         mild, wild = dusty(AIR, 4e-3), dusty(AIR, 4e-2, temperature=593.0)
         for feed, fine in ((mild, True), (wild, False)):
             checks = {c.name: bool(c.ok) for c in kind(*sizes, **burns).operate(feed=feed).checks}
