@@ -167,8 +167,8 @@ def half_angle_mass_flow_cone(effective_friction_angle: Friction, wall_friction_
     equation=(
         r"\mathrm{ff} = \frac{Y(1 + \sin\varphi_e)\,H}{2(X - 1)\sin\theta},\quad "
         r"X = \frac{2^i\sin\varphi_e}{1 - \sin\varphi_e}\left(\frac{\sin(2\beta + \theta)}{\sin\theta} + 1"
-        r"\right),\ Y = \frac{[2(1 - \cos(\beta + \theta))]^i(\beta + \theta)^{1-i}\sin\theta + "
-        r"\sin\beta\,\sin^{1+i}(\beta + \theta)}{(1 - \sin\varphi_e)\sin^{2+i}(\beta + \theta)},\ "
+        r"\right),\quad Y = \frac{[2(1 - \cos(\beta + \theta))]^i(\beta + \theta)^{1-i}\sin\theta + "
+        r"\sin\beta\,\sin^{1+i}(\beta + \theta)}{(1 - \sin\varphi_e)\sin^{2+i}(\beta + \theta)},\quad "
         r"2\beta = \varphi_w + \arcsin\frac{\sin\varphi_w}{\sin\varphi_e}"
     ),
     typical=_POWDER,
