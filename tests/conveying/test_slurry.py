@@ -59,6 +59,13 @@ def test_wilson_and_durand_meet_at_the_size_that_settles_first() -> None:
         assert 1.1 < slow.max() / durand < 1.55
 
 
+def test_no_more_than_all_of_the_solid_leans_on_the_wall() -> None:
+    """Wilson's friction coefficient of 0.44 on the submerged weight is the most."""
+    slow = gr.conveying.pressure_gradient_slurry_wilson(0.01, 0.2, 5e-4, 0.1, 2650.0, 1000.0, 1e-3)
+    alone_ = gr.conveying.pressure_gradient_pipe(0.01, 0.2, 1000.0, 1e-3)
+    assert slow - alone_ == pytest.approx(0.44 * 0.1 * 1650.0 * 9.80665, rel=1e-9)
+
+
 def test_floating_solids_have_no_deposition() -> None:
     for law in ("durand", "wilson"):
         call = getattr(gr.conveying, f"deposition_velocity_{law}")

@@ -187,8 +187,8 @@ def excess_durand(
 @formula(
     source="wilson2006, ch. 6",
     equation=(
-        r"\frac{\Delta p}{L} = \left.\frac{\Delta p}{L}\right|_l + 0.22\,\varphi\,(\rho_p - \rho_l)\,g"
-        r"\left(\frac{v}{v_{50}}\right)^{-M},\quad v_{50} = 3.93\,d^{0.35}"
+        r"\frac{\Delta p}{L} = \left.\frac{\Delta p}{L}\right|_l + 0.44\,\varphi\,(\rho_p - \rho_l)\,g\,"
+        r"\min\left(\frac12\left(\frac{v}{v_{50}}\right)^{-M},\ 1\right),\quad v_{50} = 3.93\,d^{0.35}"
         r"\left(\frac{\rho_p/\rho_l - 1}{1.65}\right)^{0.45},\ d = \frac{d_p}{1\ \mathrm{mm}},\ "
         r"\left.\frac{\Delta p}{L}\right|_l = f\left(\frac{v\,D\,\rho_l}{\eta}, \frac kD\right)"
         r"\frac{\rho_l v^2}{2\,D}"
@@ -222,10 +222,10 @@ def pressure_gradient_slurry_wilson(
     """Pressure that a partly stratified slurry in water loses per length of level pipe by Wilson and others;
     the viscosity is that of the liquid.
 
-    The exponent is 1.7 for narrow gradings, 1/ln(d85/d50) for wider ones, 0.25 at least. Constants recalled,
-    not opened.
+    The exponent is 1.7 for narrow gradings, 1/ln(d85/d50) for wider ones, 0.25 at least. No more than all of
+    the solid can lean on the wall, where the print goes on growing. Constants recalled, not opened.
 
-    By hand: at v50 the solid adds 0.22 of its submerged weight, 0.22·0.1·1650·9.80665.
+    By hand: at v50 half of the solid does, 0.22·0.1·1650·9.80665.
 
     >>> speed = 3.93 * 0.5**0.35
     >>> alone = pressure_gradient_pipe(speed, "0.2 m", 1000.0, 1e-3)
@@ -239,4 +239,4 @@ def pressure_gradient_slurry_wilson(
     )
     weight = solids_volume_fraction * excess * liquid_density * STANDARD_GRAVITY
     slower = (half / jnp.maximum(velocity, 1e-6)) ** stratification_exponent
-    return alone + 0.22 * weight * slower
+    return alone + 0.44 * weight * jnp.minimum(0.5 * slower, 1.0)
