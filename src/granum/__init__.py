@@ -32,6 +32,7 @@ _SUBPACKAGES = (
     "settling",
     "cyclones",
     "fluidization",
+    "conveying",
     "filtration",
     "centrifuges",
     "crystallization",

@@ -4,6 +4,7 @@ from granum import app as app
 from granum import cases as cases
 from granum import centrifuges as centrifuges
 from granum import comminution as comminution
+from granum import conveying as conveying
 from granum import core as core
 from granum import costs as costs
 from granum import crystallization as crystallization

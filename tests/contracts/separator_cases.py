@@ -11,6 +11,8 @@ from tests.contracts.unit_search import Case
 from granum.centrifuges.equipment.decanters import ScrollDecanter, ThreePhaseDecanter
 from granum.centrifuges.equipment.liquids import DiscSeparator, NozzleSeparator, TubularSeparator
 from granum.centrifuges.equipment.purifiers import DiscPurifier
+from granum.conveying.equipment.pneumatic import PneumaticConveyor
+from granum.conveying.equipment.slurry import SlurryPipeline
 from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
 from granum.dust.equipment.bag_filter import BagFilter
@@ -94,6 +96,18 @@ def dusty(x, mean, spread) -> Stream:
         gas=jnp.stack([gas]),
         pressure=jnp.asarray(1.0e5) + 2e5 * x[3],
     )
+
+
+def blown(x, mean, spread) -> dict[str, Stream]:
+    """Gas at 1 to 3 bar, and one to ten times its mass of solid at the atmosphere."""
+    made = dusty(x, mean, spread)
+    gas = made.part(0.0, 0.0, 1.0)
+    solid = made.part(1.0, 0.0, 0.0)
+    share = gas.gas_flow / solid.solid_flow
+    return {
+        "feed": solid.part((0.2 + 5.0 * x[1]) * share).replace(pressure=jnp.asarray(1.01325e5)),
+        "gas": gas.replace(pressure=1.2e5 + 2e5 * x[3], temperature=300.0 + 40.0 * x[2]),
+    }
 
 
 def bowl(a, b) -> tuple:
@@ -254,6 +268,18 @@ UNITS = {
             2.0 + 10.0 * a, 1.0 + 3.0 * b, f.gas_volume_flow / (0.2 + 2.0 * c)
         ),
     ),
+    "pneumatic conveyor": (
+        blown,
+        lambda f, a, b, c: PneumaticConveyor(
+            jnp.sqrt(f["gas"].gas_volume_flow / (0.785 * (12.0 + 15.0 * a))), 40.0 * b, 10.0 * c, 4.0 * c
+        ),
+    ),
+    "slurry pipeline": (
+        slurry,
+        lambda f, a, b, c: SlurryPipeline(
+            jnp.sqrt(f.slurry_volume_flow / (0.785 * (1.0 + 4.0 * a))), 500.0 * b, 20.0 * c
+        ),
+    ),
     "fan": (dusty, lambda f, a, b, c: Fan(10.0 ** (2.0 + 2.0 * a), 0.4 + 0.4 * b, 0.8 + 0.15 * c)),
     "pump": (slurry, lambda f, a, b, c: Pump(10.0 ** (4.0 + 2.0 * a), 0.4 + 0.4 * b, 0.8 + 0.15 * c)),
     "fluidized bed": (
@@ -274,11 +300,16 @@ UNITS = {
 }
 
 
+def named(made) -> dict[str, Stream]:
+    """Inlets by name."""
+    return made if isinstance(made, dict) else {"feed": made}
+
+
 def case_of(name: str) -> Case:
     """One of them as a case for ``unit_search``."""
     stream_of, build = UNITS[name]
     return Case(
-        {dusty: DUST, slurry: SLURRY}.get(stream_of, MILK),
-        lambda mixture, x: {"feed": stream_of(x[:4], x[4], x[5])},
-        lambda feeds, u: build(feeds["feed"], u[0], u[1], u[2]),
+        {dusty: DUST, blown: DUST, slurry: SLURRY}.get(stream_of, MILK),
+        lambda mixture, x: named(stream_of(x[:4], x[4], x[5])),
+        lambda feeds, u: build(feeds["feed"] if len(feeds) == 1 else feeds, u[0], u[1], u[2]),
     )

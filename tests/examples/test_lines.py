@@ -9,7 +9,7 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 
-LINES = ("sewage-sludge", "ore-grinding", "batch-pharma", "starch-drying", "spray-drying")
+LINES = ("sewage-sludge", "ore-grinding", "batch-pharma", "starch-drying", "spray-drying", "conveying")
 
 
 @cache
@@ -71,6 +71,17 @@ def test_starch_dryer_takes_the_heat_that_such_dryers_take() -> None:
     # of storage; 8 to 14 % of the whole
     assert 0.10 < float(line.streams["starch"].moisture_dry_basis) < 0.16
     assert {c.name for c in line.units["dryer"].checks if not c.ok} == {"gas temperature at the outlet"}
+
+
+def test_conveyed_starch_keeps_its_distance_from_saltation() -> None:
+    """Every practical limit holds; the power is that of some 9 kPa on 1000 m³/h, a few kWh per tonne."""
+    line = run("conveying")
+    assert all(c.ok for u in line.units.values() for c in u.checks)
+    assert 1.5 < line.figure("line.gas_velocity_inlet") / line.figure("line.saltation_velocity") < 2.0
+    assert 1.0 < float(line.utilities.energy_per_product) / 3.6e3 < 10.0
+    # gas alone, incompressible, with a common friction factor of 0.018 and air of 1.3 kg/m³
+    gas_alone = 0.018 * 55.0 / 0.125 * 1.3 * 20.0**2 / 2.0
+    assert 2.0 < line.figure("line.pressure_drop") / gas_alone < 6.0
 
 
 def test_start_up_ends_in_the_steady_states() -> None:

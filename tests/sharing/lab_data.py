@@ -439,6 +439,22 @@ def data(key: str) -> Data:
             "pressure_drop",
             0.02,
         ),
+        "yield_locus": lambda: Data(
+            {
+                "stress_normal": np.linspace(1e3, 4e3, 9),
+                "stress_shear": 600.0 + 0.7 * np.linspace(1e3, 4e3, 9),
+            },
+            {"preshear_normal": 5e3, "preshear_shear": 3.9e3},
+            "stress_shear",
+        ),
+        "flow_function": lambda: Data(
+            {
+                "consolidation_stress": np.linspace(2e3, 1.2e4, 9),
+                "unconfined_strength": 400.0 + 0.25 * np.linspace(2e3, 1.2e4, 9),
+            },
+            {},
+            "unconfined_strength",
+        ),
         "batch_test": _settling,
         "coe_clevenger_series": lambda: Data(
             {

@@ -27,6 +27,7 @@ DOMAINS = (
     "settling",
     "cyclones",
     "fluidization",
+    "conveying",
     "filtration",
     "centrifuges",
     "crystallization",

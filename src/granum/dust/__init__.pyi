@@ -36,6 +36,11 @@ from granum.dust.formulas.chambers import (
 from granum.dust.formulas.emission import (
     emission_concentration as emission_concentration,
 )
+from granum.dust.formulas.explosion import (
+    inert_gas_flow_steady as inert_gas_flow_steady,
+    vent_area_en14491 as vent_area_en14491,
+    vent_area_nfpa68 as vent_area_nfpa68,
+)
 from granum.dust.formulas.precipitation import (
     elementary_charges_diffusion as elementary_charges_diffusion,
     elementary_charges_field as elementary_charges_field,

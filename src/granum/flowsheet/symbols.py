@@ -30,6 +30,7 @@ SYMBOLS: dict[str, str] = {
     "burner": _BOX
     + '<path d="M30 44 q-12 -8 -2 -18 q2 6 5 4 q2 -6 -1 -10 q14 8 8 18 q-2 5 -10 6 z" fill="none"/>',
     "humidifier": '<path d="M14 10 h32 v40 h-32 z"/><path d="M20 18 l4 8 M30 18 v8 M40 18 l-4 8 M20 32 l4 8 M30 32 v8 M40 32 l-4 8" fill="none"/>',  # noqa: E501
+    "pipe": '<path d="M2 24 h56 v12 h-56 z"/><circle cx="14" cy="30" r="2"/><circle cx="28" cy="28" r="2"/><path d="M38 30 h12 M46 26 l5 4 l-5 4" fill="none"/>',  # noqa: E501
     "fan": '<circle cx="30" cy="30" r="20"/><path d="M16 16 L48 24 M16 44 L48 36" fill="none"/>',
 }
 
@@ -50,6 +51,7 @@ _WORDS = (
     ("crusher", "crusher"),
     ("mill", "mill"),
     ("fluidization.", "fluidized_bed"),
+    ("conveying.", "pipe"),
     ("humidifier", "humidifier"),
     ("heater", "heater"),
     ("cooler", "heater"),

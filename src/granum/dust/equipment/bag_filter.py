@@ -23,7 +23,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
-from granum.dust.equipment.collector import EMISSION, Cleaned, Collector, seen
+from granum.dust.equipment.collector import EMISSION, IGNITION, Cleaned, Collector, seen
 from granum.dust.formulas.bags import residual_drag_pulse_jet
 from granum.filtration.formulas.gas_filters import pressure_drop_dust_cake
 from granum.filtration.kinds import DustResistance, ResidualDrag
@@ -85,12 +85,20 @@ class BagFilter(Collector):
     emission_limit: Concentration = EMISSION
     oxygen_fraction: MoleFraction | None = None
     oxygen_reference: MoleFraction | None = None
+    explosible_concentration: Concentration | None = None
+    layer_ignition_temperature: Temperature | None = None
 
-    limits: ClassVar[Limits] = Collector.limits | {
-        "cloth": Limit("gas per cloth of pulse-jet bags", 0.5, 4.6, "m/min", MANUAL),
-        "drop": Limit("highest pressure drop of the bags", 250.0, 2500.0, "Pa", MANUAL),
-        "warm": Limit("temperature of the gas below that of the cloth", 0.0, math.inf, "delta_degC", MANUAL),
-    }
+    limits: ClassVar[Limits] = (
+        Collector.limits
+        | IGNITION
+        | {
+            "cloth": Limit("gas per cloth of pulse-jet bags", 0.5, 4.6, "m/min", MANUAL),
+            "drop": Limit("highest pressure drop of the bags", 250.0, 2500.0, "Pa", MANUAL),
+            "warm": Limit(
+                "temperature of the gas below that of the cloth", 0.0, math.inf, "delta_degC", MANUAL
+            ),
+        }
+    )
 
     utilities: ClassVar[Utilities] = (
         FANNED | AREA | {"electric_power_compressor": Utility("turner1998; turton2018, ch. 11")}
@@ -130,7 +138,8 @@ class BagFilter(Collector):
         )
 
     def measured(self, inside: Bagged, outlets: Cleaned, figures: BagFigures, feed: Stream) -> dict[str, Any]:
-        return {
+        burns = self.ignition(feed, self.explosible_concentration, self.layer_ignition_temperature)
+        return burns | {
             "emission": self.over_limit(figures.emission_concentration),
             "cloth": 60.0 * inside.velocity,
             "drop": inside.highest,

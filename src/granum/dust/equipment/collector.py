@@ -4,6 +4,7 @@ that the gas loses, and the emission against its limit.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
@@ -19,6 +20,18 @@ from granum.streams.units import Limits, Unit
 LEAST = 1e-9
 EMISSION = 20e-6  # kg/m³, dry at 0 °C and 1 atm
 SOURCE = "taluft2021, no. 5.2.1"
+IGNITION: Limits = {  # of dust that burns, where its data are given
+    "explosible": Limit(
+        "dust in the gas over its lower explosion limit", 0.0, 0.25, "dimensionless", "nfpa69_2019, § 8.3"
+    ),
+    "layer": Limit(
+        "ignition temperature of a layer of dust above that of the gas",
+        75.0,
+        math.inf,
+        "delta_degC",
+        "en60079_14_2014, § 5.6",
+    ),
+}
 
 
 class Cleaned(NamedTuple):
@@ -100,6 +113,18 @@ class Collector(Unit):
     def over_limit(self, emission: Any) -> Any:
         """Emission over its limit; of a limit of nothing a large number."""
         return emission / jnp.maximum(self.emission_limit, 1e-15)
+
+    def ignition(
+        self, feed: Stream, explosible_concentration: Any, layer_ignition_temperature: Any
+    ) -> dict[str, Any]:
+        """What is measured of dust that burns, as far as its data are given."""
+        found: dict[str, Any] = {}
+        if explosible_concentration is not None:
+            dust = safe_divide(feed.solid_flow, feed.gas_volume_flow)
+            found["explosible"] = dust / jnp.maximum(explosible_concentration, 1e-15)
+        if layer_ignition_temperature is not None:
+            found["layer"] = layer_ignition_temperature - feed.temperature
+        return found
 
     def parted(self, feed: Stream, share: Any, pressure_drop: Any) -> Cleaned:
         """Gas and dust; liquid travels with the dust."""

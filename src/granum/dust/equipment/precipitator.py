@@ -16,11 +16,12 @@ from granum.core.kinds import (
     PositiveNumber,
     PressureDrop,
     Speed,
+    Temperature,
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.drying.kinds import ElectricField
-from granum.dust.equipment.collector import EMISSION, Cleaned, Collector, seen, slip
+from granum.dust.equipment.collector import EMISSION, IGNITION, Cleaned, Collector, seen, slip
 from granum.dust.formulas.precipitation import (
     elementary_charges_diffusion,
     elementary_charges_field,
@@ -85,12 +86,18 @@ class ElectrostaticPrecipitator(Collector):
     emission_limit: Concentration = EMISSION
     oxygen_fraction: MoleFraction | None = None
     oxygen_reference: MoleFraction | None = None
+    explosible_concentration: Concentration | None = None
+    layer_ignition_temperature: Temperature | None = None
 
-    limits: ClassVar[Limits] = Collector.limits | {
-        "velocity": Limit("gas velocity between the plates", 0.6, 2.4, "m/s", PLANTS),
-        "plates": Limit("plates per gas", 20.0, 200.0, "m^2*s/m^3", PLANTS),
-        "migration": Limit("mean migration velocity", 0.02, 0.2, "m/s", PLANTS),
-    }
+    limits: ClassVar[Limits] = (
+        Collector.limits
+        | IGNITION
+        | {
+            "velocity": Limit("gas velocity between the plates", 0.6, 2.4, "m/s", PLANTS),
+            "plates": Limit("plates per gas", 20.0, 200.0, "m^2*s/m^3", PLANTS),
+            "migration": Limit("mean migration velocity", 0.02, 0.2, "m/s", PLANTS),
+        }
+    )
 
     utilities: ClassVar[Utilities] = FANNED | AREA | {"electric_power_corona": Utility(PLANTS)}
 
@@ -124,7 +131,8 @@ class ElectrostaticPrecipitator(Collector):
     def measured(
         self, inside: Charged, outlets: Cleaned, figures: PrecipitatorFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {
+        burns = self.ignition(feed, self.explosible_concentration, self.layer_ignition_temperature)
+        return burns | {
             "emission": self.over_limit(figures.emission_concentration),
             "velocity": inside.velocity,
             "plates": self.area / inside.flow,

@@ -7,9 +7,18 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Concentration, Fraction, Law, Length, MoleFraction, PressureDrop, Speed
+from granum.core.kinds import (
+    Concentration,
+    Fraction,
+    Law,
+    Length,
+    MoleFraction,
+    PressureDrop,
+    Speed,
+    Temperature,
+)
 from granum.core.limits import Limit
-from granum.dust.equipment.collector import EMISSION, Cleaned, Collector, seen
+from granum.dust.equipment.collector import EMISSION, IGNITION, Cleaned, Collector, seen
 from granum.dust.formulas.chambers import (
     grade_efficiency_chamber_laminar,
     grade_efficiency_chamber_turbulent,
@@ -65,10 +74,16 @@ class SettlingChamber(Collector):
     emission_limit: Concentration = EMISSION
     oxygen_fraction: MoleFraction | None = None
     oxygen_reference: MoleFraction | None = None
+    explosible_concentration: Concentration | None = None
+    layer_ignition_temperature: Temperature | None = None
 
-    limits: ClassVar[Limits] = Collector.limits | {
-        "velocity": Limit("gas velocity in a settling chamber", 0.0, 3.0, "m/s", SOURCE),
-    }
+    limits: ClassVar[Limits] = (
+        Collector.limits
+        | IGNITION
+        | {
+            "velocity": Limit("gas velocity in a settling chamber", 0.0, 3.0, "m/s", SOURCE),
+        }
+    )
 
     utilities: ClassVar[Utilities] = FANNED | AREA
 
@@ -101,7 +116,11 @@ class SettlingChamber(Collector):
     def measured(
         self, inside: Fallen, outlets: Cleaned, figures: ChamberFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {"emission": self.over_limit(figures.emission_concentration), "velocity": inside.velocity}
+        burns = self.ignition(feed, self.explosible_concentration, self.layer_ignition_temperature)
+        return burns | {
+            "emission": self.over_limit(figures.emission_concentration),
+            "velocity": inside.velocity,
+        }
 
     def drawn(
         self, inside: Fallen, outlets: Cleaned, figures: ChamberFigures, feed: Stream

@@ -1,0 +1,93 @@
+"""Vents and inerting: two standards against each other, limits, a mixed volume in time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import granum as gr
+from granum.core.errors import ApplicabilityError
+
+BAR = 1e5
+
+
+def en(volume=10.0, index=100.0, greatest=9.0, red=0.5, stat=0.1, slender=1.0):
+    return gr.dust.vent_area_en14491(volume, index * BAR, greatest * BAR, red * BAR, stat * BAR, slender)
+
+
+def nfpa(volume=10.0, index=100.0, greatest=9.0, red=0.5, stat=0.1):
+    return gr.dust.vent_area_nfpa68(volume, index * BAR, greatest * BAR, red * BAR, stat * BAR)
+
+
+def test_two_standards_agree_on_compact_vessels() -> None:
+    """Fits of their own to the same large tests: within a fifth from 1 to 100 m³ and 0.3 to 1 bar."""
+    for volume in (1.0, 10.0, 100.0):
+        for index in (60.0, 150.0, 250.0):
+            for red in (0.3, 0.5, 1.0):
+                pair = en(volume, index, red=red), nfpa(volume, index, red=red)
+                assert pair[0] == pytest.approx(pair[1], rel=0.2)
+    assert en() == pytest.approx(nfpa(), rel=0.01)
+
+
+def test_slender_vessels_need_more_up_to_a_pressure() -> None:
+    """The standard ends the correction at 1.5 bar."""
+    assert en(slender=4.0) > 1.5 * en()
+    assert en(red=1.6, slender=4.0) == en(red=1.6)
+    assert en(red=1.49, slender=4.0) == pytest.approx(en(red=1.49), rel=0.01)
+
+
+def test_fiercer_dusts_weaker_vessels_and_late_vents_need_more() -> None:
+    for law in (en, nfpa):
+        assert law(index=200.0) > law() > law(red=0.8)
+        assert law(stat=0.2) > law()
+        with pytest.raises(ApplicabilityError, match="open before"):
+            law(red=0.1, stat=0.2)
+    with pytest.raises(ApplicabilityError, match="needs no vent"):
+        nfpa(red=9.5)
+
+
+def test_nitrogen_holds_the_oxygen_of_a_mixed_volume() -> None:
+    """2 m³ with 3 m³/h of air leaking in, in small steps until nothing changes."""
+    leak, target, purity = 3.0 / 3600.0, 0.08, 0.01
+    flow = gr.dust.inert_gas_flow_steady(leak, target, purity)
+    oxygen = 0.2095
+    for _ in range(20000):
+        oxygen += (leak * 0.2095 + flow * purity - (leak + flow) * oxygen) / 2.0
+    assert oxygen == pytest.approx(target, rel=1e-9)
+    assert gr.dust.inert_gas_flow_steady(leak, 0.2095) == pytest.approx(0.0, abs=1e-12)
+    with pytest.raises(ApplicabilityError, match="between"):
+        gr.dust.inert_gas_flow_steady(leak, 0.01, 0.02)
+    flows = gr.dust.inert_gas_flow_steady(leak, np.array([0.12, 0.08, 0.04]))
+    assert list(flows) == sorted(flows)
+    assert flows[2] > flows[0]
+
+
+def test_dust_that_burns_is_checked_where_its_data_are_given() -> None:
+    """Lower limit of 60 g/m³, layers ignite at 380 °C: 4 g/m³ of warm gas stay below a quarter and 75 K;
+    ten times the dust and a gas of 320 °C do not; without data nothing is said.
+    """
+    from tests.dust.test_collectors import AIR, dusty
+
+    from granum.dust.equipment.bag_filter import BagFilter
+    from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
+    from granum.dust.equipment.settling_chamber import SettlingChamber
+
+    burns: dict[str, Any] = {"explosible_concentration": "60 g/m3", "layer_ignition_temperature": "380 degC"}
+    names = (
+        "dust in the gas over its lower explosion limit",
+        "ignition temperature of a layer of dust above that of the gas",
+    )
+    kinds: list[Any] = [
+        (BagFilter, (200.0,)),
+        (ElectrostaticPrecipitator, (500.0, 4.0)),
+        (SettlingChamber, (12.0, 4.0, 3.0)),
+    ]
+    for kind, sizes in kinds:
+        mild, wild = dusty(AIR, 4e-3), dusty(AIR, 4e-2, temperature=593.0)
+        for feed, fine in ((mild, True), (wild, False)):
+            checks = {c.name: bool(c.ok) for c in kind(*sizes, **burns).operate(feed=feed).checks}
+            assert [checks[name] for name in names] == [fine, fine]
+        said = {c.name for c in kind(*sizes).operate(feed=mild).checks}
+        assert not said & set(names)
