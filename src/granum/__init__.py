@@ -37,6 +37,7 @@ _SUBPACKAGES = (
     "crystallization",
     "drying",
     "dust",
+    "evaporation",
     "flowsheet",
     "studies",
     "costs",

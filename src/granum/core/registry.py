@@ -32,6 +32,7 @@ DOMAINS = (
     "crystallization",
     "drying",
     "dust",
+    "evaporation",
     "studies",
     "costs",
 )
