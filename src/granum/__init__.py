@@ -38,6 +38,7 @@ _SUBPACKAGES = (
     "crystallization",
     "drying",
     "dust",
+    "evaporation",
     "flowsheet",
     "studies",
     "costs",

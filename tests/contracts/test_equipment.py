@@ -16,7 +16,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from tests.contracts import separator_cases, unit_cases
+from tests.contracts import evaporator_cases, separator_cases, unit_cases
 from tests.contracts.unit_search import FEED, OWN, QUICK, THERE, Case, present, rows
 from tests.sharing.samples import SAMPLES
 
@@ -42,6 +42,7 @@ LONG = {  # slow to compile, or solved by the code of a neighbor that is tried
     "crystallization.plug_flow_crystallizer",
     "crystallization.vacuum_batch_crystallizer",
     "crystallization.vacuum_crystallizer",
+    "evaporation.multiple_effect_evaporator",
     "filtration.candle_filter",
     "filtration.deep_bed_filter",
     "filtration.nutsche",
@@ -57,6 +58,7 @@ GROUPS = (
     unit_cases.centrifuges,
     unit_cases.basics,
     unit_cases.crystallizers,
+    evaporator_cases.evaporators,
 )
 
 

@@ -33,6 +33,7 @@ DOMAINS = (
     "crystallization",
     "drying",
     "dust",
+    "evaporation",
     "studies",
     "costs",
 )

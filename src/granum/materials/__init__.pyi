@@ -1,5 +1,10 @@
 """Materials: fluids, solids, solutes and their solubility, gas–vapor pairs."""
 
+from granum.materials.activities import (
+    ElectrolyteActivity as ElectrolyteActivity,
+    NoActivity as NoActivity,
+    SucroseActivity as SucroseActivity,
+)
 from granum.materials.correlation import (
     Correlation as Correlation,
     Missing as Missing,
@@ -9,6 +14,12 @@ from granum.materials.fluids import (
     Combustion as Combustion,
     Flammability as Flammability,
     Fluid as Fluid,
+)
+from granum.materials.formulas.activity import (
+    debye_huckel_slope as debye_huckel_slope,
+    osmotic_coefficient_pitzer as osmotic_coefficient_pitzer,
+    water_activity_osmotic as water_activity_osmotic,
+    water_activity_starzak_peacock as water_activity_starzak_peacock,
 )
 from granum.materials.formulas.correlations import (
     correlation_aly_lee as correlation_aly_lee,
@@ -112,6 +123,7 @@ from granum.materials.salts import (
     Salt as Salt,
 )
 from granum.materials.schema import (
+    ActivityEntry as ActivityEntry,
     BranchEntry as BranchEntry,
     CombustionEntry as CombustionEntry,
     FlammabilityEntry as FlammabilityEntry,

@@ -19,6 +19,7 @@ from granum.core.formulas import Formula
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.unit_table import rows
+from granum.materials.activities import ElectrolyteActivity, NoActivity, SucroseActivity
 from granum.materials.correlation import Correlation, Missing, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
 from granum.materials.formulas.solutions import (
@@ -291,8 +292,34 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         viscosity_law=viscosity or NoLaw(Missing(f"{key}: {_('viscosity of the solution')}")),
         heat_capacity_law=heat_capacity,
         solute_heat_capacity=nan,
+        activity_law=_activity(key, entry),
     )
     return _with_enthalpies(system)
+
+
+def _activity(key: str, entry: SoluteEntry) -> Any:
+    """The law of water activity of a solute, or what says that there is none."""
+    found = entry.water_activity
+    if found is None:
+        return NoActivity(Missing(f"{key}: {_('water activity of the solution')}"))
+    if found.form == "starzak_peacock":
+        return SucroseActivity(entry.molar_mass)
+
+    def eight(a: list[float]) -> tuple[float, ...]:
+        return tuple((*a, *[0.0] * 7)[:8])
+
+    return ElectrolyteActivity(
+        molar_mass=entry.molar_mass,
+        counts=(float(found.counts[0]), float(found.counts[1])),
+        charges=(float(found.charges[0]), float(found.charges[1])),
+        beta_zero=eight(found.beta_zero),
+        beta_one=eight(found.beta_one),
+        c_phi=eight(found.c_phi),
+        coldest=found.range[0],
+        hottest=found.range[1],
+        most=found.molality,
+        source=found.source,
+    )
 
 
 def _with_enthalpies(system: SoluteSystem) -> SoluteSystem:

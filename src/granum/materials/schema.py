@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
@@ -139,6 +139,32 @@ class BranchEntry(_Strict):
         return self
 
 
+class ActivityEntry(_Strict):
+    """Water activity of the solutions: ``form`` is "pitzer" or "starzak_peacock". Each Pitzer parameter is
+    eight coefficients of Møller's function of temperature, or one number at all temperatures.
+    """
+
+    form: Literal["pitzer", "starzak_peacock"]
+    counts: tuple[int, int] = (1, 1)
+    charges: tuple[int, int] = (1, 1)
+    beta_zero: list[float] = []
+    beta_one: list[float] = []
+    c_phi: list[float] = []
+    range: tuple[float, float] = (273.15, 423.15)
+    molality: float = Field(default=0.0, ge=0, description="largest, mol per kg of water")
+    source: str
+
+    @model_validator(mode="after")
+    def _whole(self) -> ActivityEntry:
+        sets = (self.beta_zero, self.beta_one, self.c_phi)
+        if self.form == "pitzer" and (self.molality <= 0.0 or any(len(a) not in (1, 8) for a in sets)):
+            raise ValueError(
+                "the form 'pitzer' needs 'beta_zero', 'beta_one' and 'c_phi' of one or eight numbers, "
+                "and the largest 'molality'"
+            )
+        return self
+
+
 class SoluteEntry(_Named):
     """A solute in a solvent."""
 
@@ -153,6 +179,7 @@ class SoluteEntry(_Named):
     )
     viscosity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
     heat_capacity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
+    water_activity: ActivityEntry | None = None
 
     @model_validator(mode="after")
     def _one_after_another(self) -> SoluteEntry:

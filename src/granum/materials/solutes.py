@@ -19,7 +19,14 @@ from granum.core import flags
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError, unknown_name
 from granum.core.i18n import _, current_language
-from granum.materials.correlation import Correlation, Missing, Tabulated, as_solute_ratio, as_temperature
+from granum.materials.correlation import (
+    Correlation,
+    Missing,
+    Tabulated,
+    as_pressure,
+    as_solute_ratio,
+    as_temperature,
+)
 from granum.materials.fluids import Fluid
 from granum.materials.solids import Solid
 from granum.numerics import find_root
@@ -127,6 +134,7 @@ class SoluteSystem(eqx.Module):
     density_law, viscosity_law, heat_capacity_law: of (temperature, mass fraction of anhydrous solute).
     solute_heat_capacity: apparent heat capacity of dissolved solute in the solution saturated at 25 °C, J/(kg
         K).
+    activity_law: water activity, of (temperature, solute per solvent).
     """
 
     name: str = eqx.field(static=True)
@@ -139,6 +147,7 @@ class SoluteSystem(eqx.Module):
     viscosity_law: Any
     heat_capacity_law: Any
     solute_heat_capacity: float
+    activity_law: Any
 
     @property
     def label(self) -> str:
@@ -244,6 +253,30 @@ class SoluteSystem(eqx.Module):
     def solution_heat_capacity(self, temperature: Any, solute_per_solvent: Any) -> Any:
         """Heat capacity of the solution, J/(kg K)."""
         return self.heat_capacity_law(as_temperature(temperature), self.mass_fraction(solute_per_solvent))
+
+    # -- boiling
+    # -------------------------------------------------------------------------------------------------
+    def solvent_activity(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        """Activity of the solvent over the solution."""
+        return self.activity_law(as_temperature(temperature), as_solute_ratio(solute_per_solvent))
+
+    def boiling_temperature(self, pressure: Any, solute_per_solvent: Any) -> Any:
+        """Temperature at which the solution boils, K; NaN outside the range of the vapor pressure."""
+        P, ratio = jnp.asarray(as_pressure(pressure)), jnp.asarray(as_solute_ratio(solute_per_solvent))
+        law = self.solvent.vapor_pressure
+        if isinstance(law, Missing):
+            return law(P)
+        self.solvent_activity(jnp.clip(self.solvent.boiling_temperature(P), law.low, law.high), ratio)
+
+        def excess(T: Any, p: Any, c: Any) -> Any:
+            return jnp.log(law.value(T)) + jnp.log(self.activity_law(T, c)) - jnp.log(p)
+
+        return find_root(excess, law.low, law.high, jnp.maximum(P, 1e-300), ratio).value
+
+    def boiling_point_elevation(self, pressure: Any, solute_per_solvent: Any) -> Any:
+        """By how much hotter the solution boils than the solvent, K."""
+        pure = self.solvent.boiling_temperature(pressure)
+        return self.boiling_temperature(pressure, solute_per_solvent) - pure
 
     # -- enthalpies: zero for liquid solvent and dissolved solute at 0 °C; additive, so that mixing closes
     # exactly ----------

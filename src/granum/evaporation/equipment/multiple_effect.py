@@ -1,0 +1,230 @@
+"""Evaporators in series, each heated by the vapor of the one before."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Literal, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import lax
+
+from granum.core import equipment
+from granum.core.flags import unsolved
+from granum.core.kinds import (
+    HeatTransferCoefficient,
+    MassFlow,
+    MassFraction,
+    Power,
+    Pressure,
+    Ratio,
+    Temperature,
+)
+from granum.core.limits import Limit
+from granum.evaporation.boiling import Effect, Liquor, boil, condensed, entrained
+from granum.evaporation.equipment.evaporator import Heating
+from granum.evaporation.kinds import EVAPORATION_SOURCE
+from granum.numerics import Newton, solve_system
+from granum.numerics.smooth import safe_divide
+from granum.streams.stream import Stream, empty
+from granum.streams.units import Limits
+from granum.streams.utilities import HEAT_APPROACH, heated
+
+UNSOLVED = (
+    "The pressures between the effects were not found: give steam of a higher pressure, a lower pressure in "
+    "the last effect, fewer effects, a smaller area or a warmer feed."
+)
+
+
+class TrainFigures(NamedTuple):
+    """Figures of a multiple-effect evaporator."""
+
+    evaporation: MassFlow
+    steam_flow: MassFlow
+    steam_economy: Ratio
+    solute_mass_fraction: MassFraction
+    crystal_flow: MassFlow
+    heat_duty: Power
+    temperature_steam: Temperature
+    temperature_first: Temperature
+    temperature_last: Temperature
+    pressure_first: Pressure
+    temperature_difference_lost: Ratio
+
+
+class FromTrain(NamedTuple):
+    """Concentrated solution, vapor of the last effect, condensate of the vapors of the others, heat of the
+    steam.
+    """
+
+    product: Stream
+    vapor: Stream
+    condensate: Stream
+    heat_duty: Any
+
+
+class Train(NamedTuple):
+    """The effects by falling pressure, products and vapors with drops, condensates, temperature of the
+    steam.
+    """
+
+    liquor: Liquor
+    effects: list[Effect]
+    products: list[Stream]
+    vapors: list[Stream]
+    condensates: list[Stream]
+    chest: Any
+
+
+@equipment(
+    "multiple_effect_evaporator",
+    source="mccabe2005, ch. 16; geankoplis2003, § 8.5",
+    title="Multiple-effect evaporator",
+    equation=r"UA\,(T_{b,i-1} - \Delta T_{b,i-1} - T_{b,i}) = \dot H_{vapor,i-1} - \dot H_{condensate,i-1}",
+)
+class MultipleEffectEvaporator(Heating):
+    """Effects of equal area, as many as two to seven; steam heats the first, the vapor of each the next.
+
+    ``pressure`` is that of the last effect; those between follow from areas and coefficients. The feed enters
+    the first effect (forward), the last (backward) or all in equal parts (parallel). Boiling-point elevation,
+    crystals and simplifications as in ``evaporation.evaporator``; condensates leave together, not flashed.
+    """
+
+    feeding: Literal["forward", "backward", "parallel"] = eqx.field(
+        kw_only=True, static=True, default="forward"
+    )
+    effect_count: Literal["2", "3", "4", "5", "6", "7"] = eqx.field(kw_only=True, static=True, default="3")
+    heat_transfer_coefficient_first: HeatTransferCoefficient = eqx.field(kw_only=True, default=2500.0)
+    heat_transfer_coefficient_last: HeatTransferCoefficient = eqx.field(kw_only=True, default=1200.0)
+
+    limits: ClassVar[Limits] = Heating.limits | {
+        "lost": Limit(
+            "share of the temperature difference lost to boiling-point elevation",
+            0.0,
+            0.6,
+            "dimensionless",
+            EVAPORATION_SOURCE,
+        )
+    }
+
+    def _coefficients(self) -> list[Any]:
+        """Of each effect, in equal steps of their logarithm from the first to the last."""
+        n = int(self.effect_count)
+        first, last = self.heat_transfer_coefficient_first, self.heat_transfer_coefficient_last
+        return [first * (last / first) ** (i / (n - 1)) for i in range(n)]
+
+    def _pass(self, liquor: Liquor, feed: Stream, chest: Any, pure: list[Any]) -> Train:
+        """All effects at given boiling points of the solvent."""
+        walls = jnp.stack([jnp.asarray(self.conductance(c), dtype=float) for c in self._coefficients()])
+        temperatures = jnp.stack([jnp.asarray(T, dtype=float) for T in (chest, *pure)])
+        parallel = self.feeding == "parallel"
+        part = 1.0 / len(pure) if parallel else 1.0
+        whole = feed.part(solid=part, liquid=part, gas=part)
+        start = jax.tree.map(lambda x: jnp.asarray(x, dtype=float), whole)
+
+        def one(entering: Stream, of: tuple[Any, Any, Any]) -> tuple[Stream, tuple[Effect, Stream, Stream]]:
+            behind, boiling, wall = of
+            made = boil(liquor, entering, behind, boiling, wall, self.sizes)
+            product, vapor = entrained(made, self.drop_entrainment)
+            return (entering if parallel else product), (made, product, vapor)
+
+        _last, made = lax.scan(
+            one, start, (temperatures[:-1], temperatures[1:], walls), reverse=self.feeding == "backward"
+        )
+        effects, products, vapors = (
+            [jax.tree.map(lambda x, i=i: x[i], stacked) for i in range(len(pure))] for stacked in made
+        )
+        condensates = [condensed(liquor, vapor, T) for vapor, T in zip(vapors[:-1], pure, strict=False)]
+        return Train(liquor, effects, products, vapors, condensates, chest)
+
+    def inside(self, feed: Stream) -> Train:
+        liquor = self.liquor(feed)
+        chest = liquor.pure_boiling(self.pressure_steam)
+        coldest = liquor.pure_boiling(self.pressure)
+        walls = jnp.stack([1.0 / jnp.asarray(c, dtype=float) for c in self._coefficients()])
+        shares = jnp.cumsum(walls)[:-1] / jnp.sum(walls)
+        scale = jnp.maximum(feed.liquid[0], 1e-9) * liquor.latent(coldest) / int(self.effect_count)
+
+        def given(state: Any) -> list[Any]:
+            return [*(state[i] for i in range(len(shares))), coldest]
+
+        def mismatch(state: Any, _args: Any) -> Any:
+            train = self._pass(liquor, feed, chest, given(state))
+            return jnp.stack(
+                [
+                    (train.effects[i + 1].duty - vapor.enthalpy_flow + train.condensates[i].enthalpy_flow)
+                    / scale
+                    for i, vapor in enumerate(train.vapors[:-1])
+                ]
+            )
+
+        found = solve_system(
+            mismatch,
+            chest - (chest - coldest) * shares,
+            method=Newton(),
+            tolerance=1e-12,
+            scale=jnp.full(len(shares), 10.0),
+            residual_scale=jnp.ones(len(shares)),
+        )
+        unsolved(found.residual < 1e-10, type(self).card, reason=UNSOLVED)
+        train = self._pass(liquor, feed, chest, given(found.state))
+        for made in train.effects:
+            self.settled(made)
+            liquor.excess(made.temperature, made.pure, made.product.liquid)  # where its flags are heard
+        return train
+
+    def outlets(self, inside: Train, feed: Stream) -> FromTrain:
+        product = {
+            "forward": inside.products[-1],
+            "backward": inside.products[0],
+            "parallel": _together(inside.products),
+        }[self.feeding]
+        condensate = _together(inside.condensates)
+        # from the streams, so that the inner iteration leaves no trace in the balance
+        duty = (
+            product.enthalpy_flow
+            + inside.vapors[-1].enthalpy_flow
+            + condensate.enthalpy_flow
+            - feed.enthalpy_flow
+        )
+        return FromTrain(product, inside.vapors[-1], condensate, duty)
+
+    def figures(self, inside: Train, outlets: FromTrain, feed: Stream) -> TrainFigures:
+        gone = jnp.sum(jnp.stack([made.evaporation for made in inside.effects]))
+        steam = outlets.heat_duty / inside.liquor.latent(inside.chest)
+        first, last = inside.effects[0], inside.effects[-1]
+        lost = jnp.sum(jnp.stack([made.temperature - made.pure for made in inside.effects]))
+        return TrainFigures(
+            gone,
+            steam,
+            safe_divide(gone, steam, 0.0),
+            1.0 - safe_divide(outlets.product.liquid[0], outlets.product.liquid_flow, 1.0),
+            jnp.sum(outlets.product.solid) - jnp.sum(feed.solid),
+            outlets.heat_duty,
+            inside.chest,
+            first.temperature,
+            last.temperature,
+            first.pressure,
+            safe_divide(lost, inside.chest - last.pure, 1.0),
+        )
+
+    def measured(
+        self, inside: Train, outlets: FromTrain, figures: TrainFigures, feed: Stream
+    ) -> dict[str, Any]:
+        behind = [inside.chest, *(made.pure for made in inside.effects[:-1])]
+        differences = [hot - made.temperature for hot, made in zip(behind, inside.effects, strict=True)]
+        return {
+            "difference": jnp.min(jnp.stack(differences)),
+            "crowded": outlets.product.solids_volume_fraction,
+            "lost": figures.temperature_difference_lost,
+        }
+
+    def drawn(self, inside: Train, outlets: FromTrain, figures: TrainFigures, feed: Stream) -> dict[str, Any]:
+        return heated(outlets.heat_duty, inside.chest - HEAT_APPROACH)
+
+
+def _together(streams: list[Stream]) -> Stream:
+    total = empty(streams[0].mixture, streams[0].temperature, streams[0].pressure)
+    for stream in streams:
+        total = total + stream
+    return total

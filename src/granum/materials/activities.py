@@ -1,0 +1,79 @@
+"""Water activity of the solutions of a solute system, so that they boil where they do.
+
+Beyond the most concentrated solution that a source speaks of, the osmotic coefficient (or the activity
+coefficient) keeps its last value: water activity then still falls with every gram of solute.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core import flags
+from granum.materials.correlation import Missing
+from granum.materials.formulas.activity import (
+    WATER,
+    moller_function,
+    osmotic_coefficient_pitzer,
+    water_activity_osmotic,
+    water_activity_starzak_peacock,
+)
+
+SLACK = 0.51  # K: the limits of the source are rounded
+
+
+class ElectrolyteActivity(eqx.Module):
+    """Pitzer's equation for one salt in water, its parameters over temperature as Møller writes them."""
+
+    molar_mass: float
+    counts: tuple[float, float] = eqx.field(static=True)
+    charges: tuple[float, float] = eqx.field(static=True)
+    beta_zero: tuple[float, ...] = eqx.field(static=True)
+    beta_one: tuple[float, ...] = eqx.field(static=True)
+    c_phi: tuple[float, ...] = eqx.field(static=True)
+    coldest: float = eqx.field(static=True)
+    hottest: float = eqx.field(static=True)
+    most: float = eqx.field(static=True)
+    """mol per kg of water, the most concentrated solution behind the parameters."""
+    source: str = eqx.field(static=True)
+    is_missing = False
+
+    def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        T, m = jnp.asarray(temperature), solute_per_solvent / self.molar_mass
+        key = osmotic_coefficient_pitzer.card.key
+        some = m > 0.0
+        cold, hot = self.coldest, self.hottest
+        outside = some & ((cold - SLACK > T) | (hot + SLACK < T))
+        flags.record(flags.EXTRAPOLATED, outside, T, "temperature", key, cold, hot, self.source)
+        flags.record(flags.EXTRAPOLATED, m > self.most, m, "salt_molality", key, 0.0, self.most, self.source)
+        t = jnp.clip(T, 273.15, 573.15)
+        b0, b1, c = (moller_function(t, a) for a in (self.beta_zero, self.beta_one, self.c_phi))
+        within = jnp.clip(m, 0.0, self.most)
+        phi = osmotic_coefficient_pitzer(within, b0, b1, c, t, *self.counts, *self.charges)
+        return water_activity_osmotic(m, phi, sum(self.counts))
+
+
+class SucroseActivity(eqx.Module):
+    """Starzak and Peacock's equation for sucrose in water."""
+
+    molar_mass: float
+    most = 0.4  # mole fraction: 93 % of sucrose by mass
+    is_missing = False
+
+    def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        moles = solute_per_solvent / self.molar_mass
+        x = moles / (moles + 1.0 / WATER)
+        inside = jnp.minimum(x, self.most)
+        return water_activity_starzak_peacock(inside, temperature) * (1.0 - x) / (1.0 - inside)
+
+
+class NoActivity(eqx.Module):
+    """Stands where a solute has no published water activity in the library."""
+
+    missing: Missing
+    is_missing = True
+
+    def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        return self.missing(temperature)

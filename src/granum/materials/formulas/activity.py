@@ -1,0 +1,152 @@
+"""Water activity of solutions: electrolytes by Pitzer's equation, sucrose by Starzak and Peacock."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from granum.core import formula
+from granum.core.constants import GAS_CONSTANT
+from granum.core.kinds import (
+    Molality,
+    MoleFraction,
+    Number,
+    PositiveNumber,
+    Temperature,
+    WaterActivity,
+    Within,
+)
+
+WATER = 0.01801528  # kg/mol
+SLOPE = (
+    0.336901532,
+    -6.32100430e-4,
+    9.14252359,
+    -1.35143986e-2,
+    2.26089488e-3,
+    1.92118597e-6,
+    45.2586464,
+    0.0,
+)
+_Q, _A, _B = -17638.0, -1.0038, -0.24653
+ROOM = 298.15
+Charge = Annotated[PositiveNumber, Within(1.0, 4.0)]
+Count = Annotated[PositiveNumber, Within(1.0, 4.0)]
+
+
+def moller_function(T: Any, a: Any) -> Any:
+    """How Møller and Greenberg write a parameter over temperature: eight coefficients."""
+    return (
+        a[0]
+        + a[1] * T
+        + a[2] / T
+        + a[3] * jnp.log(T)
+        + a[4] / (T - 263.0)
+        + a[5] * T**2
+        + a[6] / (680.0 - T)
+        + a[7] / (T - 227.0)
+    )
+
+
+@formula(
+    source="moller1988, eq. 13, as transcribed in pytzer",
+    equation=(
+        r"A_\phi = a_1 + a_2T + \frac{a_3}{T} + a_4\ln T + \frac{a_5}{T-263} + a_6T^2 + "
+        r"\frac{a_7}{680-T}"
+    ),
+    fitted={"temperature": (273.15, 573.15)},
+    title="Debye–Hückel slope of the osmotic coefficient in water (Møller)",
+)
+def debye_huckel_slope(temperature: Temperature) -> PositiveNumber:
+    """Debye–Hückel slope for osmotic coefficients in water at its vapor pressure, (kg/mol)^0.5.
+
+    >>> round(debye_huckel_slope(temperature=298.15), 4)
+    0.3915
+    """
+    return moller_function(temperature, SLOPE)
+
+
+@formula(
+    source="pitzer1973; moller1988",
+    equation=(
+        r"\phi = 1 - z_cz_a\frac{A_\phi(T)\sqrt I}{1+1.2\sqrt I} + m\frac{2pq}{p+q}\left(\beta_0 + "
+        r"\beta_1e^{-2\sqrt I}\right) + m^2\frac{2(pq)^{3/2}}{p+q}C_\phi,\quad "
+        r"I = \frac m2\left(p z_c^2 + q z_a^2\right)"
+    ),
+    typical={"salt_molality": (0.1, 6.0)},
+    title="Osmotic coefficient of an electrolyte (Pitzer)",
+)
+def osmotic_coefficient_pitzer(
+    salt_molality: Molality,
+    pitzer_beta_zero: Number,
+    pitzer_beta_one: Number,
+    pitzer_c: Number,
+    temperature: Temperature = ROOM,
+    cation_count: Count = 1.0,
+    anion_count: Count = 1.0,
+    cation_charge_number: Charge = 1.0,
+    anion_charge_number: Charge = 1.0,
+) -> Number:
+    """Osmotic coefficient of one salt in water by Pitzer's equation, charges without sign.
+
+    Sodium chloride at 25 °C with Pitzer and Mayorga's coefficients, 6 mol/kg: 1.271 in Robinson and Stokes'
+    table.
+
+    >>> round(osmotic_coefficient_pitzer(6.0, 0.0765, 0.2664, 0.00127), 2)
+    1.27
+    """
+    m, nc, na = salt_molality, cation_count, anion_count
+    zc, za = cation_charge_number, anion_charge_number
+    nu = nc + na
+    root = jnp.sqrt(jnp.maximum(0.5 * m * (nc * zc**2 + na * za**2), 1e-24))
+    second = pitzer_beta_zero + pitzer_beta_one * jnp.exp(-2.0 * root)
+    return (
+        1.0
+        - zc * za * debye_huckel_slope(temperature) * root / (1.0 + 1.2 * root)
+        + m * 2.0 * nc * na / nu * second
+        + m**2 * 2.0 * (nc * na) ** 1.5 / nu * pitzer_c
+    )
+
+
+@formula(
+    source="pitzer1973",
+    equation=r"a_w = \exp\left(-\nu\,m\,M_w\,\phi\right)",
+    typical={"salt_molality": (0.1, 6.0), "osmotic_coefficient": (0.7, 1.3)},
+    title="Water activity from the osmotic coefficient",
+)
+def water_activity_osmotic(
+    salt_molality: Molality,
+    osmotic_coefficient: Number,
+    ion_count: Annotated[PositiveNumber, Within(1.0, 8.0)],
+) -> WaterActivity:
+    """Activity of water over a solution of known osmotic coefficient; 1 for a solute that does not
+    dissociate.
+
+    Saturated sodium chloride at 25 °C, 6.1 mol/kg, holds 75 % relative humidity.
+
+    >>> round(water_activity_osmotic(salt_molality=6.144, osmotic_coefficient=1.278, ion_count=2.0), 2)
+    0.75
+    """
+    return jnp.exp(-ion_count * salt_molality * WATER * osmotic_coefficient)
+
+
+@formula(
+    source="starzak1997",
+    equation=r"a_w = (1-x_m)\exp\left[\frac{Q}{RT}\,x_m^2\left(1 + a x_m + b x_m^2\right)\right]",
+    typical={"solute_mole_fraction": (0.0, 0.2), "temperature": (298.15, 393.15)},
+    title="Water activity of a sucrose solution (Starzak and Peacock)",
+)
+def water_activity_starzak_peacock(
+    solute_mole_fraction: MoleFraction, temperature: Temperature
+) -> WaterActivity:
+    """Water activity of sucrose in water, the activity coefficient fitted to a century of data at all
+    concentrations.
+
+    Saturated syrup at 25 °C (67.9 %) holds about 85 % relative humidity.
+
+    >>> round(water_activity_starzak_peacock(solute_mole_fraction=0.1002, temperature=298.15), 2)
+    0.84
+    """
+    x = solute_mole_fraction
+    return (1.0 - x) * jnp.exp(_Q / (GAS_CONSTANT * temperature) * x**2 * (1.0 + _A * x + _B * x**2))
