@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.cases.alone import alone
 from granum.core.errors import InputError
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.settling import charts
@@ -189,3 +190,21 @@ def test_clarifier_thickener_agrees_with_flux_theory_and_with_its_own_simulation
         float(slurry.solid_flow) * (1 - 1 / float(figures.loading_ratio)), rel=1e-9
     )
     assert not all(check.ok for check in checks)
+
+
+@pytest.mark.parametrize(
+    ("unit", "word"),
+    [
+        ("flocculator", "volume"),
+        ("clarifier", "area"),
+        ("clarifier", "underflow_concentration"),
+        ("lamella", "skimmings_concentration"),
+        ("grit_chamber", "underflow_concentration"),
+        ("api_separator", "underflow_concentration"),
+        ("clarifier_thickener", "settling_time"),
+    ],
+)
+def test_a_settler_without_size_or_thickness_is_refused_in_words(unit: str, word: str) -> None:
+    with pytest.raises(InputError, match="is not possible") as refused:
+        alone(f"settling.{unit}", **{word: "0"})
+    assert refused.value.exit_code == 2

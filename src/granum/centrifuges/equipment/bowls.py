@@ -20,6 +20,8 @@ from granum.centrifuges.formulas.mechanics import (
     power_acceleration,
     power_windage,
 )
+from granum.core.errors import InputError
+from granum.core.i18n import _ as translated
 from granum.core.kinds import Length, OpenFraction, PositiveNumber, RotationSpeed, Stress
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import (
@@ -35,6 +37,12 @@ from granum.streams.utilities import DRIVE, driven
 
 Ends = tuple[float, float]
 THIN = 0.0999  # of the radius: the thickest wall that counts as thin
+
+
+def refuse_beyond(inner: Any, outer: Any, name: str, message: str) -> None:
+    """Refuse two known radii of which the first is not the smaller; ``message`` says where it has to lie."""
+    if isinstance(inner, float) and isinstance(outer, float) and inner >= outer:
+        raise InputError(translated(message).format(inner=inner, outer=outer), name=name)
 
 
 def machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> Limits:
@@ -107,6 +115,14 @@ class Bowl(Unit):
 
     def drawn(self, inside: None, outlets: Any, figures: Any, feed: Stream) -> dict[str, Any]:
         return {"electric_power_drive": driven(figures.shaft_power)}
+
+    def __check_init__(self) -> None:
+        refuse_beyond(
+            self.radius_inner,
+            self.radius_outer,
+            "radius_inner",
+            "The inner radius, {inner:.4g} m, must be smaller than the outer one, {outer:.4g} m.",
+        )
 
     @abc.abstractmethod
     def sigma(self) -> Any:

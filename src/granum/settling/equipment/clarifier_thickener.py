@@ -92,7 +92,7 @@ class ClarifierThickener(Unit, Dynamic):
     feed_depth_share: Fraction = 0.5
     cone_height_share: Fraction = 0.0
     bottom_area_share: Fraction = 1.0
-    settling_time: Time = 10 * 86400.0
+    settling_time: Annotated[Time, Within(60.0)] = 10 * 86400.0
     concentration_maximum: Concentration = 1000.0
     cells: Annotated[int, Within(5, 5000)] = eqx.field(static=True, default=40)
 

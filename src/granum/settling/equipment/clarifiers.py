@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import HOUR
-from granum.core.kinds import Angle, Area, Concentration, Length, PositiveNumber, Ratio, VolumeFlow
+from granum.core.kinds import Angle, Area, Length, PositiveNumber, Ratio, VolumeFlow
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import (
     DRAG,
@@ -21,6 +21,7 @@ from granum.settling.equipment.gravity import (
     Hindrance,
     Settled,
     Skimmed,
+    Thickness,
     class_velocities,
 )
 from granum.settling.equipment.rakes import CLARIFIER, RAKED, raked, scraped
@@ -84,7 +85,7 @@ class Clarifier(AbstractBasin):
     """
 
     area: Area
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     tank_number: PositiveNumber | None = None
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
@@ -147,7 +148,7 @@ class CircularClarifier(_Deep):
 
     diameter: Length
     height: Length
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     bottom_slope: Ratio = 0.06
     tank_number: PositiveNumber | None = 3.0
     drag: Drag = DRAG
@@ -189,7 +190,7 @@ class RectangularClarifier(_Deep):
     length: Length
     width: Length
     height: Length
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     tank_number: PositiveNumber | None = 3.0
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
@@ -242,7 +243,7 @@ class Lamella(AbstractSettler):
     plate_length: Length
     plate_width: Length
     plate_spacing: Length
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     plate_angle: Angle = 1.0471975511965976
     flow_direction: Literal["countercurrent", "cocurrent", "crosscurrent"] = "countercurrent"
     tank_number: PositiveNumber | None = None
@@ -299,7 +300,7 @@ class GritChamber(AbstractBasin):
     length: Length
     width: Length
     height: Length
-    underflow_concentration: Concentration = 500.0
+    underflow_concentration: Thickness = 500.0
     tank_number: PositiveNumber | None = None
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
