@@ -57,7 +57,11 @@ def machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> Li
 
 def no_floats(source: str) -> Limits:
     """That of a machine with one liquid outlet."""
-    return {"floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", source)}
+    return {
+        "floats": Limit(
+            "floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", source, quiet=True
+        )
+    }
 
 
 def slender(low: float, high: float) -> Limits:
