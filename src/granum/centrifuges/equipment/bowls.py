@@ -24,6 +24,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _ as translated
 from granum.core.kinds import Length, OpenFraction, PositiveNumber, RotationSpeed, Stress
 from granum.core.limits import Limit
+from granum.core.units import format_number
 from granum.settling.equipment.gravity import (
     DRAG,
     HINDRANCE,
@@ -42,7 +43,9 @@ THIN = 0.0999  # of the radius: the thickest wall that counts as thin
 def refuse_beyond(inner: Any, outer: Any, name: str, message: str) -> None:
     """Refuse two known radii of which the first is not the smaller; ``message`` says where it has to lie."""
     if isinstance(inner, float) and isinstance(outer, float) and inner >= outer:
-        raise InputError(translated(message).format(inner=inner, outer=outer), name=name)
+        raise InputError(
+            translated(message).format(inner=format_number(inner), outer=format_number(outer)), name=name
+        )
 
 
 def machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> Limits:
@@ -125,7 +128,7 @@ class Bowl(Unit):
             self.radius_inner,
             self.radius_outer,
             "radius_inner",
-            "The inner radius, {inner:.4g} m, must be smaller than the outer one, {outer:.4g} m.",
+            "The inner radius, {inner} m, must be smaller than the outer one, {outer} m.",
         )
 
     @abc.abstractmethod

@@ -184,7 +184,7 @@ def refuse_weir(radius: Any, outer: Any, name: str) -> None:
         radius,
         outer,
         name,
-        "A weir at {inner:.4g} m stands outside what holds the liquid, which reaches to {outer:.4g} m: "
+        "A weir at {inner} m stands outside what holds the liquid, which reaches to {outer} m: "
         "give it a smaller radius.",
     )
 
