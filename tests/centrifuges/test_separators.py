@@ -11,6 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from tests.contracts.separator_cases import MILK
 
+from granum.cases.alone import alone
 from granum.centrifuges.equipment.decanters import ScrollDecanter, ThreePhaseDecanter
 from granum.centrifuges.equipment.liquids import DiscSeparator, NozzleSeparator, TubularSeparator
 from granum.centrifuges.equipment.purifiers import DiscPurifier
@@ -358,3 +359,24 @@ def test_interval_between_discharges_and_gradient():
     slope = float(jax.grad(skimmed)(0.0492))
     assert slope == pytest.approx(float((skimmed(0.04921) - skimmed(0.04919)) / 2e-5), rel=1e-3)
     assert slope < 0  # an interface farther out leaves less of the discs to clear the water
+
+
+WEIR_OUT = "outside what holds the liquid"
+
+
+@pytest.mark.parametrize(
+    ("key", "word", "value", "said"),
+    [
+        ("centrifuges.disc_separator", "radius_heavy", "20 cm", WEIR_OUT),
+        ("centrifuges.nozzle_separator", "radius_light", "30 cm", WEIR_OUT),
+        ("centrifuges.tubular_separator", "radius_heavy", "50 cm", WEIR_OUT),
+        ("centrifuges.three_phase_decanter", "radius_heavy", "50 cm", WEIR_OUT),
+        ("centrifuges.disc_purifier", "radius_heavy", "30 cm", WEIR_OUT),
+        ("centrifuges.disc_stack", "radius_inner", "20 cm", "must be smaller than the outer one"),
+        ("centrifuges.nozzle_separator", "discharge_coefficient", "0", "must be between"),
+    ],
+)
+def test_a_bowl_that_cannot_be_built_is_refused_in_words(key: str, word: str, value: str, said: str) -> None:
+    with pytest.raises(InputError, match=said) as refused:
+        alone(key, **{word: value})
+    assert refused.value.exit_code == 2

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.cases.alone import alone
 from granum.core.errors import InputError
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.settling import charts
@@ -189,3 +190,56 @@ def test_clarifier_thickener_agrees_with_flux_theory_and_with_its_own_simulation
         float(slurry.solid_flow) * (1 - 1 / float(figures.loading_ratio)), rel=1e-9
     )
     assert not all(check.ok for check in checks)
+
+
+@pytest.mark.parametrize(
+    ("unit", "word"),
+    [
+        ("flocculator", "volume"),
+        ("clarifier", "area"),
+        ("clarifier", "underflow_concentration"),
+        ("lamella", "skimmings_concentration"),
+        ("grit_chamber", "underflow_concentration"),
+        ("api_separator", "underflow_concentration"),
+        ("clarifier_thickener", "settling_time"),
+    ],
+)
+def test_a_settler_without_size_or_thickness_is_refused_in_words(unit: str, word: str) -> None:
+    with pytest.raises(InputError, match="is not possible") as refused:
+        alone(f"settling.{unit}", **{word: "0"})
+    assert refused.value.exit_code == 2
+
+
+def test_overflow_rate_and_weir_of_a_round_clarifier_by_hand():
+    # 300 t/h of water and 100 kg/h of stone on 18 m: π/4 · 18² = 254.47 m², a wall of 56.55 m
+    checks = {
+        c.name: c for c in alone("settling.circular_clarifier").solve().units["circular_clarifier"].checks
+    }
+    surface, weir = checks["overflow rate"], checks["flow over the weir per length"]
+    assert float(surface.value) * 86400 == pytest.approx(7200 / 254.47, rel=2e-3)
+    assert float(weir.value) == pytest.approx(7200 / 56.55, rel=1e-2)
+    assert surface.ok
+    assert weir.ok
+    crowded = alone("settling.circular_clarifier", diameter="8 m", weir_length="12 m").solve()
+    failed = {c.name for c in crowded.units["circular_clarifier"].checks if not c.ok}
+    assert {"overflow rate", "flow over the weir per length"} <= failed
+
+
+def test_a_weir_of_unknown_length_is_not_judged():
+    names = [c.name for c in RectangularClarifier(20.0, 4.0, 3.0, 100.0).operate(feed=feed()).checks]
+    assert "overflow rate" in names
+    assert "flow over the weir per length" not in names
+
+
+def test_floating_matter_is_spoken_of_where_something_floats():
+    said = "floating matter, which has no outlet here"
+    plain = alone("settling.thickener").solve().units["thickener"]
+    assert said not in [check.name for check in plain.checks]
+    oily = alone(
+        "settling.thickener",
+        **{
+            "mixture": {"solids": ["calcite", "crude oil"]},
+            "feed": {"solid": {"calcite": "90 %", "crude oil": "10 %"}},
+        },
+    )
+    assert said in [check.name for check in oily.solve().units["thickener"].checks]

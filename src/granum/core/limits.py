@@ -16,7 +16,7 @@ class Limit(NamedTuple):
 
     ``Limit("diameter", 0.0, 60.0, "m", "degremont2007")`` holds for every size and setting. An end may be the
     name of one of the unit's own parameters: ``Limit("cake thickness", "discharge_thickness", math.inf, "m",
-    "perry2008")``.
+    "perry2008")``. A ``quiet`` one is not told where zero is measured: what it warns of is not there.
     """
 
     name: str
@@ -24,6 +24,7 @@ class Limit(NamedTuple):
     high: float | str
     unit: str
     source: str
+    quiet: bool = False
 
     def as_json(self) -> dict[str, Any]:
         """Stable plain data: an open end is None, an end given by a parameter its name."""

@@ -226,9 +226,16 @@ class Run:
     @cached_property
     def units(self) -> dict[str, UnitReport]:
         """Every unit's figures, checks and utilities."""
-        counts = counted(self.sheet)
+        counts, sheets = counted(self.sheet), self.solution.sheets
         return {
-            name: UnitReport(name, self.sheet.units[name], *self.solution.sheets[name], counts[name])
+            name: UnitReport(
+                name,
+                self.sheet.units[name],
+                sheets[name].figures,
+                tuple(check for check in sheets[name].checks if check.told),
+                sheets[name].uses,
+                counts[name],
+            )
             for name in self.sheet.order
         }
 

@@ -37,6 +37,12 @@ class Check:
     high: Any
     unit: str = field(metadata=STATIC)
     source: str = field(metadata=STATIC)
+    quiet: bool = field(default=False, metadata=STATIC)
+
+    @property
+    def told(self) -> bool:
+        """Whether a reader of the solved line needs to know."""
+        return not self.quiet or float(self.value) != 0.0
 
     @property
     def ok(self) -> bool:
@@ -144,7 +150,7 @@ class Unit(eqx.Module):
 
     def _checked(self, limit: Limit, value: Any) -> Check:
         low, high = (getattr(self, end) if isinstance(end, str) else end for end in (limit.low, limit.high))
-        return Check(limit.name, value, low, high, limit.unit, limit.source)
+        return Check(limit.name, value, low, high, limit.unit, limit.source, limit.quiet)
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         """Pictures of what happens inside, by their heading, for the report; none by default."""

@@ -20,8 +20,11 @@ from granum.centrifuges.formulas.mechanics import (
     power_acceleration,
     power_windage,
 )
+from granum.core.errors import InputError
+from granum.core.i18n import _ as translated
 from granum.core.kinds import Length, OpenFraction, PositiveNumber, RotationSpeed, Stress
 from granum.core.limits import Limit
+from granum.core.units import format_number
 from granum.settling.equipment.gravity import (
     DRAG,
     HINDRANCE,
@@ -37,6 +40,14 @@ Ends = tuple[float, float]
 THIN = 0.0999  # of the radius: the thickest wall that counts as thin
 
 
+def refuse_beyond(inner: Any, outer: Any, name: str, message: str) -> None:
+    """Refuse two known radii of which the first is not the smaller; ``message`` says where it has to lie."""
+    if isinstance(inner, float) and isinstance(outer, float) and inner >= outer:
+        raise InputError(
+            translated(message).format(inner=format_number(inner), outer=format_number(outer)), name=name
+        )
+
+
 def machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> Limits:
     """Limits that every machine has, with its own ends."""
     return {
@@ -49,7 +60,11 @@ def machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> Li
 
 def no_floats(source: str) -> Limits:
     """That of a machine with one liquid outlet."""
-    return {"floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", source)}
+    return {
+        "floats": Limit(
+            "floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", source, quiet=True
+        )
+    }
 
 
 def slender(low: float, high: float) -> Limits:
@@ -107,6 +122,14 @@ class Bowl(Unit):
 
     def drawn(self, inside: None, outlets: Any, figures: Any, feed: Stream) -> dict[str, Any]:
         return {"electric_power_drive": driven(figures.shaft_power)}
+
+    def __check_init__(self) -> None:
+        refuse_beyond(
+            self.radius_inner,
+            self.radius_outer,
+            "radius_inner",
+            "The inner radius, {inner} m, must be smaller than the outer one, {outer} m.",
+        )
 
     @abc.abstractmethod
     def sigma(self) -> Any:

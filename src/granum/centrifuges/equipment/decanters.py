@@ -23,6 +23,7 @@ from granum.centrifuges.equipment.liquids import (
     interface,
     part_liquids,
     parted_figures,
+    refuse_weir,
 )
 from granum.centrifuges.equipment.settling import Clarified, clarified, clarifier_figures
 from granum.centrifuges.formulas.clarifying import sigma_factor_scroll
@@ -323,6 +324,9 @@ class ThreePhaseDecanter(Scrolled):
     light_solids_fraction: OpenFraction = 0.9
 
     limits: ClassVar[Limits] = SCROLL_LIMITS | INTERFACE
+
+    def __check_init__(self) -> None:
+        refuse_weir(self.radius_heavy, self.radius_outer, "radius_heavy")
 
     def inside(self, feed: Stream) -> Conveyed:
         return self.conveyed(feed)

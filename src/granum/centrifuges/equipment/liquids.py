@@ -8,11 +8,11 @@ from __future__ import annotations
 import abc
 from collections.abc import Callable
 from dataclasses import KW_ONLY
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.centrifuges.equipment.bowls import Bowl, held_liquid
+from granum.centrifuges.equipment.bowls import Bowl, held_liquid, refuse_beyond
 from granum.centrifuges.equipment.settling import (
     DISC_LIMITS,
     EJECTED,
@@ -44,6 +44,7 @@ from granum.core.kinds import (
     Volume,
     VolumeFlow,
     VolumeFraction,
+    Within,
 )
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import floats, over_axes
@@ -177,6 +178,17 @@ def interface(unit: Any, feed: Stream, radius_light: Any) -> Any:
     return radius_interface(jnp.maximum(unit.radius_heavy, least), radius_light, heavy, light)
 
 
+def refuse_weir(radius: Any, outer: Any, name: str) -> None:
+    """Refuse a weir that stands outside the bowl: no liquid ring would form."""
+    refuse_beyond(
+        radius,
+        outer,
+        name,
+        "A weir at {inner} m stands outside what holds the liquid, which reaches to {outer} m: "
+        "give it a smaller radius.",
+    )
+
+
 class Separator(Bowl):
     """Abstract separator of two liquids and sediment. Two weirs (ring dam or gravity disc) set where the
     interface lies: in the discs what is outside it clears the heavy liquid of drops, what is inside it holds
@@ -187,6 +199,10 @@ class Separator(Bowl):
     radius_heavy: Length
     radius_light: Length
     light_solids_fraction: OpenFraction = 0.9
+
+    def __check_init__(self) -> None:
+        refuse_weir(self.radius_heavy, self.radius_outer, "radius_heavy")
+        refuse_weir(self.radius_light, self.radius_outer, "radius_light")
 
     def neutral(self, feed: Stream) -> Any:
         """Radius of the neutral zone, kept within what can settle, m."""
@@ -306,7 +322,7 @@ class NozzleSeparator(DiscSeparating):
     _: KW_ONLY
     nozzle_number: PositiveNumber
     nozzle_diameter: Length
-    discharge_coefficient: Fraction = 0.7
+    discharge_coefficient: Annotated[Fraction, Within(0.01)] = 0.7
 
     limits: ClassVar[Limits] = (
         DISC_LIMITS

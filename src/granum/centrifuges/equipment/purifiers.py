@@ -15,6 +15,7 @@ from granum.centrifuges.equipment.liquids import (
     interface,
     light_density,
     parted_figures,
+    refuse_weir,
 )
 from granum.centrifuges.equipment.settling import DISC_LIMITS, EJECTED, Discs
 from granum.centrifuges.formulas.clarifying import cut_size_centrifuge, grade_efficiency_thin_layer
@@ -106,6 +107,10 @@ class DiscPurifier(Discs):
             ),
         }
     )
+
+    def __check_init__(self) -> None:
+        refuse_weir(self.radius_heavy, self.wall, "radius_heavy")
+        refuse_weir(self.radius_light, self.radius_outer, "radius_light")
 
     def clearing(self, feed: Stream) -> Any:
         """Equivalent settling area inside the interface, m²."""

@@ -12,7 +12,6 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
-    Concentration,
     Density,
     DynamicViscosity,
     Fraction,
@@ -28,6 +27,7 @@ from granum.settling.equipment.gravity import (
     HINDRANCE,
     Drag,
     Hindrance,
+    Thickness,
     class_velocities,
     over_axes,
     skim,
@@ -83,8 +83,8 @@ class ApiSeparator(Unit):
     height: Length
     channel_number: PositiveNumber = 1.0
     droplet_diameter: Length = 150e-6
-    skimmings_concentration: Concentration = 500.0
-    underflow_concentration: Concentration = 100.0
+    skimmings_concentration: Thickness = 500.0
+    underflow_concentration: Thickness = 100.0
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 

@@ -92,7 +92,7 @@ class ClarifierThickener(Unit, Dynamic):
     feed_depth_share: Fraction = 0.5
     cone_height_share: Fraction = 0.0
     bottom_area_share: Fraction = 1.0
-    settling_time: Time = 10 * 86400.0
+    settling_time: Annotated[Time, Within(60.0)] = 10 * 86400.0
     concentration_maximum: Concentration = 1000.0
     cells: Annotated[int, Within(5, 5000)] = eqx.field(static=True, default=40)
 
@@ -101,7 +101,9 @@ class ClarifierThickener(Unit, Dynamic):
         "clarification": Limit("loading of the clarification zone", 0.0, 1.0, "dimensionless", "coe1916"),
         "blanket": Limit("blanket over the depth below the feed", 0.0, 1.0, "dimensionless", "keinath1985"),
         "gathering": Limit("sludge still gathering, of what is fed", 0.0, 0.02, "dimensionless", "diehl2001"),
-        "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916"),
+        "floats": Limit(
+            "floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916", quiet=True
+        ),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
     }
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.constants import HOUR
-from granum.core.kinds import Angle, Area, Concentration, Length, PositiveNumber, Ratio, VolumeFlow
+from granum.core.constants import DAY, HOUR
+from granum.core.kinds import Angle, Area, Length, PositiveNumber, Ratio, VolumeFlow
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import (
     DRAG,
@@ -21,6 +21,7 @@ from granum.settling.equipment.gravity import (
     Hindrance,
     Settled,
     Skimmed,
+    Thickness,
     class_velocities,
 )
 from granum.settling.equipment.rakes import CLARIFIER, RAKED, raked, scraped
@@ -84,7 +85,7 @@ class Clarifier(AbstractBasin):
     """
 
     area: Area
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     tank_number: PositiveNumber | None = None
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
@@ -138,27 +139,39 @@ class _Deep(AbstractBasin, Dynamic):
         return state, self(evened)
 
 
+WEIRS: Limits = {
+    "surface": Limit("overflow rate", 0.0, 120.0 / DAY, "m/s", "metcalf2003"),
+    "weir": Limit("flow over the weir per length", 0.0, 500.0, "m^2/day", "metcalf2003"),
+}
+
+
 @equipment("circular_clarifier", source="degremont2007; hazen1904", title="Circular scraped clarifier")
 class CircularClarifier(_Deep):
     """Circular clarifier with a rotating scraper, fed in the center.
 
-    Practical limits: diameter at most 50 to 60 m, depth at the wall 2 to 3.5 m, bottom slope 4 to 8 %.
+    Practical limits: diameter at most 50 to 60 m, depth at the wall 2 to 3.5 m, bottom slope 4 to 8 %; at
+    peak flow 120 m/d on its area and 500 m²/d over its weir, which is the wall unless a length is given.
     """
 
     diameter: Length
     height: Length
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     bottom_slope: Ratio = 0.06
     tank_number: PositiveNumber | None = 3.0
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
+    weir_length: Length | None = None
 
-    limits: ClassVar[Limits] = AbstractBasin.limits | {
-        "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
-        "depth": Limit("depth at the wall", 2.0, 3.5, "m", "degremont2007"),
-        "slope": Limit("bottom slope", 0.04, 0.08, "dimensionless", "degremont2007"),
-        "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
-    }
+    limits: ClassVar[Limits] = (
+        AbstractBasin.limits
+        | WEIRS
+        | {
+            "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
+            "depth": Limit("depth at the wall", 2.0, 3.5, "m", "degremont2007"),
+            "slope": Limit("bottom slope", 0.04, 0.08, "dimensionless", "degremont2007"),
+            "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
+        }
+    )
 
     utilities: ClassVar[Utilities] = RAKED | AREA
 
@@ -166,7 +179,10 @@ class CircularClarifier(_Deep):
         return jnp.pi / 4.0 * self.diameter**2
 
     def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        weir = jnp.pi * self.diameter if self.weir_length is None else self.weir_length
         return super().measured(inside, outlets, figures, feed) | {
+            "surface": figures.overflow_rate,
+            "weir": outlets.overflow.slurry_volume_flow / weir * DAY,
             "diameter": self.diameter,
             "depth": self.height,
             "slope": self.bottom_slope,
@@ -183,23 +199,29 @@ class RectangularClarifier(_Deep):
     """Rectangular clarifier with a traveling bridge or chain scraper.
 
     Practical limits: width to length about 1 to 6, depth 2.5 to 4 m, and a horizontal velocity that does not
-    scour the sludge.
+    scour the sludge; at peak flow 120 m/d on its area and, where the length of its weirs is given, 500 m²/d
+    over them.
     """
 
     length: Length
     width: Length
     height: Length
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     tank_number: PositiveNumber | None = 3.0
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
+    weir_length: Length | None = None
 
-    limits: ClassVar[Limits] = AbstractBasin.limits | {
-        "shape": Limit("length over width", 3.0, 6.5, "dimensionless", "degremont2007"),
-        "depth": Limit("depth", 2.5, 4.0, "m", "degremont2007"),
-        "velocity": Limit("horizontal velocity", 0.0, 0.025, "m/s", "metcalf2003"),
-        "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
-    }
+    limits: ClassVar[Limits] = (
+        AbstractBasin.limits
+        | WEIRS
+        | {
+            "shape": Limit("length over width", 3.0, 6.5, "dimensionless", "degremont2007"),
+            "depth": Limit("depth", 2.5, 4.0, "m", "degremont2007"),
+            "velocity": Limit("horizontal velocity", 0.0, 0.025, "m/s", "metcalf2003"),
+            "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
+        }
+    )
 
     utilities: ClassVar[Utilities] = RAKED | AREA
 
@@ -207,13 +229,19 @@ class RectangularClarifier(_Deep):
         return self.length * self.width
 
     def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
-        flow = feed.slurry_volume_flow
-        return super().measured(inside, outlets, figures, feed) | {
-            "shape": self.length / self.width,
-            "depth": self.height,
-            "velocity": flow / (self.width * self.height),
-            "time": self.volume / flow / HOUR,
-        }
+        flow, clear = feed.slurry_volume_flow, outlets.overflow.slurry_volume_flow
+        weir = {} if self.weir_length is None else {"weir": clear / self.weir_length * DAY}
+        return (
+            super().measured(inside, outlets, figures, feed)
+            | weir
+            | {
+                "surface": figures.overflow_rate,
+                "shape": self.length / self.width,
+                "depth": self.height,
+                "velocity": flow / (self.width * self.height),
+                "time": self.volume / flow / HOUR,
+            }
+        )
 
     def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return {
@@ -242,7 +270,7 @@ class Lamella(AbstractSettler):
     plate_length: Length
     plate_width: Length
     plate_spacing: Length
-    underflow_concentration: Concentration
+    underflow_concentration: Thickness
     plate_angle: Angle = 1.0471975511965976
     flow_direction: Literal["countercurrent", "cocurrent", "crosscurrent"] = "countercurrent"
     tank_number: PositiveNumber | None = None
@@ -299,7 +327,7 @@ class GritChamber(AbstractBasin):
     length: Length
     width: Length
     height: Length
-    underflow_concentration: Concentration = 500.0
+    underflow_concentration: Thickness = 500.0
     tank_number: PositiveNumber | None = None
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE

@@ -77,7 +77,7 @@ class Flocculator(Unit):
     the grains and the share of collisions that last, unless a jar test gives it.
     """
 
-    volume: Volume
+    volume: Annotated[Volume, Within(1e-6)]
     velocity_gradient: Frequency
     tank_number: PositiveNumber = 3.0
     _: KW_ONLY

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Concentration, Fraction, Law, Speed, VolumeFlow
+from granum.core.kinds import Concentration, Fraction, Law, Speed, VolumeFlow, Within
 from granum.core.limits import Limit
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.hindered import hindrance_richardson_zaki
@@ -20,6 +20,8 @@ from granum.streams.units import Limits, Unit
 
 Drag = Annotated[Any, Law("drag_coefficient")]
 Hindrance = Annotated[Any, Law("hindrance")]
+# what leaves thicker than it came cannot hold nothing
+Thickness = Annotated[Concentration, Within(1e-3)]
 DRAG, HINDRANCE = drag_coefficient_brown_lawler, hindrance_richardson_zaki
 
 
@@ -145,7 +147,7 @@ class AbstractSettler(Unit):
         underflow_concentration: Any
 
     _: KW_ONLY
-    skimmings_concentration: Concentration = 500.0
+    skimmings_concentration: Thickness = 500.0
 
     limits: ClassVar[Limits] = {
         "thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916")

@@ -58,7 +58,9 @@ class Thickener(Unit):
         "thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916"),
         "thickening": Limit("loading of the thickening zone", 0.0, 1.0, "dimensionless", "yoshioka1957"),
         "clarification": Limit("loading of the clarification zone", 0.0, 1.0, "dimensionless", "coe1916"),
-        "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916"),
+        "floats": Limit(
+            "floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916", quiet=True
+        ),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
     }
 
