@@ -55,8 +55,7 @@ def test_a_line_with_recycle_is_built_and_conserves() -> None:
     assert run.audit["mass_closure"] < 1e-9
     assert run.audit["energy_closure"] < 1e-9
     assert "purge" in run.units  # or water would go around for ever
-    # at 25 °C water holds 0.383 kg/kg (CRC Handbook of Chemistry and Physics: 38.3 g per 100 g); the purge leaves
-    # saturated
+    # at 25 °C water holds 0.383 kg/kg (CRC Handbook of Chemistry and Physics); the purge leaves saturated
     purged = run.streams["purge.side"]
     assert float(purged.liquid[1] / purged.liquid[0]) == pytest.approx(0.383, rel=0.05)
 

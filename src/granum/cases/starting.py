@@ -54,7 +54,9 @@ def starting_values(model: str, mixture: Mapping[str, Any]) -> dict[str, Any]:
 def _speaks_of(value: Any, substances: tuple[str, ...]) -> bool:
     """Whether a value names one of some substances."""
     inside = value.values() if isinstance(value, dict) else (value,)
-    return any(_speaks_of(v, substances) if isinstance(v, dict) else bool(v) and v in substances for v in inside)
+    return any(
+        _speaks_of(v, substances) if isinstance(v, dict) else bool(v) and v in substances for v in inside
+    )
 
 
 def listed(mixture: Mapping[str, Any], phase: str) -> list[str]:
