@@ -51,6 +51,18 @@ def go(page: Page, place: str) -> None:
     page.settle()
 
 
+def test_what_is_continuous_comes_before_what_only_contains_the_word(page: Page) -> None:
+    page.open("lines", "fr")
+    page.button("Nouvelle ligne").click()
+    page.type("#new-title", "Essai")
+    page.button("Créer la ligne").click()
+    page.one("[data-palette]")
+    page.type("[aria-label='Chercher un appareil']", "cristallisoir continu")
+    titles = [e.text for e in page.all(".piece")]
+    found = [title for title in titles if title.startswith("Cristallisoir")]
+    assert found[0].startswith("Cristallisoir continu")
+
+
 def test_a_first_hour_in_french(page: Page, album: Album) -> None:
     page.open("home", "fr")
     album.take("accueil")
@@ -79,6 +91,7 @@ def test_a_first_hour_in_french(page: Page, album: Album) -> None:
     assert 'lang="fr"' in report
     assert "Sel n° 1" in report
     case = case_of(page)
+    assert "msmpr" in str(case["units"]["cristallisoir"])
 
     go(page, PLACE)
     page.paste("#table", table("Temps [s];Volume de filtrat [m3]", ";"))
