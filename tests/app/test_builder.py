@@ -40,7 +40,7 @@ WORDS = {
         "create": "Créer la ligne",
         "search": "Chercher un appareil",
         "solid": "Nitrate de potassium",
-        "crystallizer": "cristallisoir continu",
+        "crystallizer": "cristallisoir continu parfaitement",
         "filter": "filtre à bande",
         "dryer": "séchoir parfaitement mélangé",
         "names": ("solution", "cristallisoir", "filtre", "séchoir", "purge"),

@@ -10,7 +10,7 @@ from tests.app.browsing import Page
 
 SPHERE = "particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"  # noqa: E501
 STOKES = f"studies/{quote('card:particles.terminal_velocity_stokes', safe='')}?{SPHERE}"
-RUN = {"en": "Run the study", "fr": "Lancer l'étude"}
+RUN = {"en": "Run the study", "fr": "Lancer l’étude"}
 
 
 def closed_and_opened_again(page: Page) -> None:

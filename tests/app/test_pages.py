@@ -179,7 +179,7 @@ def test_the_limit_of_an_optimum_has_its_unit(page: Page) -> None:
     page.one("[data-kind=optimize]").click()
     page.button("Ajouter une limite").click()
     assert page.leave(page.type("[data-limit=high] input", "4,5")) == ("4,5", "mm/s")
-    page.button("Lancer l'étude").click()
+    page.button("Lancer l’étude").click()
     page.one("[data-study=optimize]")
     assert "au plus 4,5 mm/s" in page.one("[data-question]").text
     page.browser.refresh()  # set-up and outcome are still there
@@ -430,7 +430,7 @@ def test_unsaved_changes_are_there_on_coming_back(page: Page) -> None:
     page.until(lambda: "1.6 tonne" in page.one("#case").get_attribute("value"))
 
 
-@pytest.mark.parametrize(("language", "run"), [("en", "Run the study"), ("fr", "Lancer l'étude")])
+@pytest.mark.parametrize(("language", "run"), [("en", "Run the study"), ("fr", "Lancer l’étude")])
 def test_a_study_runs_with_progress(page: Page, language: str, run: str) -> None:
     page.open(PLACES["studies"], language)
     page.button(run).click()

@@ -28,6 +28,7 @@ from fastapi import Request
 
 from granum.app.limits import Busy
 from granum.app.wear import IDLE_MEMORY, resident, worn
+from granum.core import kept
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _, current_language, language
 from granum.core.units import unit_system
@@ -106,7 +107,7 @@ class _Process:
             "JAX_COMPILATION_CACHE_DIR": os.environ.get("JAX_COMPILATION_CACHE_DIR", cache_folder),
             "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.3",
         }
-        command = [sys.executable, "-m", "granum.app.worker", str(memory)]
+        command = [sys.executable, "-m", "granum.app.worker", str(memory), str(kept.folder() or "")]
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment
         )

@@ -1,8 +1,8 @@
 """A worker process of the app: takes one task after the other from its standard input, within a limit of
 memory.
 
-Started as ``python -m granum.app.worker MEGABYTES``. Messages are pickles between this process and the one
-that started it.
+Started as ``python -m granum.app.worker MEGABYTES [FOLDER]``, with the folder of the programs that it keeps.
+Messages are pickles between this process and the one that started it.
 """
 
 from __future__ import annotations
@@ -15,10 +15,14 @@ import queue
 import signal
 import sys
 import threading
+from pathlib import Path
 from typing import Any, BinaryIO
 
 from granum.app.wear import CROWDED, MORE_CROWDED, forget_when_worn
+from granum.core import kept
 from granum.core.garbage import collect_seldom
+
+REST = 1.0  # seconds without a task after which programs are written
 
 
 def _limit(megabytes: int) -> None:
@@ -27,6 +31,15 @@ def _limit(megabytes: int) -> None:
         import resource
 
         resource.setrlimit(resource.RLIMIT_DATA, (megabytes * 1_000_000, megabytes * 1_000_000))
+
+
+def _next(tasks: queue.SimpleQueue[Any]) -> Any:
+    """The next task; what tracing made is written while none is there."""
+    try:
+        return tasks.get(timeout=REST)
+    except queue.Empty:
+        kept.store()
+        return tasks.get()
 
 
 def _listen(source: BinaryIO, tasks: queue.SimpleQueue[Any], cancelled: threading.Event) -> None:
@@ -51,6 +64,9 @@ def main() -> None:
     os.dup2(2, 1)  # whatever a library prints must not end up between the answers
     _limit(int(sys.argv[1]))
     collect_seldom()
+    if len(sys.argv) > 2 and sys.argv[2]:
+        kept.keep_in(Path(sys.argv[2]))
+        kept.look_around()
     tasks: queue.SimpleQueue[Any] = queue.SimpleQueue()
     cancelled = threading.Event()
     threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks, cancelled), daemon=True).start()
@@ -71,7 +87,7 @@ def main() -> None:
     registry.everything()
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
     while True:
-        name, payload, code, units, new = tasks.get()
+        name, payload, code, units, new = _next(tasks)
         if new:
             forget_when_worn(CROWDED, MORE_CROWDED)
         cancelled.clear()

@@ -119,7 +119,10 @@ class _Begun:
 
 
 def forget() -> None:
-    """Drop all that was traced and compiled; what is called again is traced again."""
+    """Drop all that was traced and compiled, written first where programs are kept; what is called again is
+    traced again.
+    """
+    kept.store()
     for one in list(_Begun.all):
         one.forget()
     jax.clear_caches()

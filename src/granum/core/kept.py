@@ -65,6 +65,16 @@ def is_on() -> bool:
     return _folder[0] is not None
 
 
+def folder() -> Path | None:
+    """Where programs are kept, if they are."""
+    return _folder[0]
+
+
+def look_around() -> None:
+    """Note now what traces depend on: for a process that may outlive a change of the files it began with."""
+    _surroundings()
+
+
 class Named:
     """A program by what it is traced from, and whether it is kept.
 
@@ -108,8 +118,13 @@ class Named:
 
 
 def store() -> None:
-    """Write what is to be kept: at the end of a process, when the answer has been given."""
-    for path, dumped in _pending.items():
+    """Write what is to be kept, and let go of it: at the end of a process or while it rests, when the answer
+    has been given.
+    """
+    written = False
+    while _pending:
+        path, dumped = _pending.popitem()
+        written = True
         try:
             data = dumped()
             if data is not None:
@@ -118,8 +133,7 @@ def store() -> None:
                     _write(path, sha256(data).digest() + data)
         except (Unkept, pickle.PicklingError, AttributeError, TypeError, RecursionError, OSError):
             continue  # the next process traces anew
-    if _pending and _folder[0] is not None:
-        _pending.clear()
+    if written and _folder[0] is not None:
         _make_room(_folder[0])
 
 

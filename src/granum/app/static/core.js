@@ -102,7 +102,7 @@ export function apply() {
 }
 
 export function t(text, values = {}) {
-  const found = (settings.language === 'fr' ? french[text] : english[text]) || text;
+  const found = settings.language === 'fr' ? french[text]?.replaceAll("'", '’') || text : english[text] || text;
   return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
 }
 

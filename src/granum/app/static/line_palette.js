@@ -19,10 +19,13 @@ export function Palette({ origin, pick, close }) {
     field.current?.focus();
   }, []);
   const words = plain(word).split(/\s+/).filter(Boolean);
-  const found = (list || []).filter((e) => {
-    const text = plain(`${e.title} ${e.other_names} ${e.model.replaceAll('_', ' ')} ${e.summary}`);
-    return words.every((w) => text.includes(w));
-  });
+  const inside = ({ title }) => words.filter((w) => !` ${plain(title)}`.includes(` ${w}`)).length; // "continu" in "discontinu"
+  const found = (list || [])
+    .filter((e) => {
+      const text = plain(`${e.title} ${e.other_names} ${e.model.replaceAll('_', ' ')} ${e.summary}`);
+      return words.every((w) => text.includes(w));
+    })
+    .toSorted((one, other) => inside(one) - inside(other));
   const domains = Object.keys(english).filter((domain) => found.some((e) => e.domain === domain));
   return html`<section class="card palette" data-palette aria-label=${t('Add equipment')} onKeyDown=${(e) => e.key === 'Escape' && close()}><div class="row spread"><h2 class="first">${origin ? t('Equipment for {origin}', { origin }) : t('Add equipment')}</h2><button class="button" onClick=${close}>${t('Close')}</button></div>
     <input type="search" ref=${field} aria-label=${t('Search equipment')} placeholder=${t('filter, dryer, cyclone…')} value=${word} onInput=${(e) => setWord(e.target.value)} onKeyDown=${(

@@ -118,7 +118,7 @@ function Tabled({ trace, label }) {
 
 /** The title of an upright axis in two lines where one is too long for it. */
 function upright(axis, height) {
-  const text = axis?.title?.text;
+  const text = axis?.title?.text?.replaceAll('<br>', ' '); // two lines, not a third beside another's break
   const bare = text?.replace(/<[^>]*>/g, '');
   if (!bare || bare.length * 7.5 < height) return axis;
   const breaks = [...text.matchAll(/ (?=<i>|\/ |\(|\S)/g)].map((found) => found.index);

@@ -341,7 +341,7 @@ export const french = {
   'standard deviation': 'écart type',
   'from': 'de',
   'to': 'à',
-  'steps': 'pas',
+  'steps': 'nombre de points',
   'Download the cases': 'Télécharger les cas',
   '{run} cases, {failed} without a result': '{run} cas, dont {failed} sans résultat',
   'goes nowhere yet': 'ne va encore nulle part',
