@@ -27,7 +27,7 @@ def test_loop_on_which_newton_alone_runs_away() -> None:
 
 
 def test_parameter_is_found_with_the_state() -> None:
-    """x = p x + 1 so that x is 2: p is one half; one half is out of reach, as 1 / (1 - p) is never so small."""
+    """x = p x + 1 so that x is 2: p is one half; x is never below one."""
 
     def loop(wanted):
         return lambda v: jnp.stack([v[1] * v[0] + 1.0, v[1] - 0.01 * (v[0] - wanted)])
