@@ -110,16 +110,19 @@ def climb(
         found = solver() if watch is None else watch.run(solver)
         return found, wrongs(found, targets)
 
-    most = QUICK * (1 + len(targets))
-    found, wrong = attempt(lambda: _in_passes(_quickly, Anderson(), sheet, targets, most, watch))
-    if wrong and _may_help(sheet, wrong) and not (watch is not None and (watch.stopped or watch.late)):
+    def exactly() -> Tried:
         left = beginning(sheet, targets, found.designed)
         if targets and not np.all(found.findings.finite):
             # lost where there is no solution: from the values that the line has
             settled = _in_passes(_quickly, Anderson(), sheet, (), QUICK, watch)
             left = beginning(sheet, (), settled.designed)._replace(near=beginning(sheet, targets).near)
-        method, most = EXACT["method"], EXACT["max_steps"]
-        other, told = attempt(lambda: _in_passes(_exactly, method, sheet, targets, most, watch, left))
+        return _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, left)
+
+    most = QUICK * (1 + len(targets))
+    found, wrong = attempt(lambda: _in_passes(_quickly, Anderson(), sheet, targets, most, watch))
+    late = watch is not None and (watch.stopped or watch.late)
+    if wrong and not late and _may_help(sheet, targets, wrong):
+        other, told = attempt(exactly)
         if not told or np.all(other.findings.finite) or not np.all(found.findings.finite):
             found, wrong = other, told
     if watch is not None and wrong and (watch.stopped or watch.late):
@@ -189,9 +192,14 @@ def _stagnates(looks: list[tuple[int, float]]) -> bool:
     return bool(before) and min(lately) > 0.1 * min(before)
 
 
-def _may_help(sheet: Flowsheet, wrong: list[Fault]) -> bool:
-    """Whether another solver may find what this one has not."""
-    return any(block.tears for block in sheet.blocks) and wrong[0].kind in ("loop", "no value", "target")
+def _may_help(sheet: Flowsheet, targets: tuple[Target, ...], wrong: list[Fault]) -> bool:
+    """Whether another solver may find what this one has not: no loop brings a specification into reach."""
+    if not any(block.tears for block in sheet.blocks):
+        return False
+    if wrong[0].kind != "target" or len(targets) != 1:
+        return wrong[0].kind in ("loop", "no value", "target")
+    low, high = _reach(sheet, targets[0])
+    return not np.isfinite(low + high) or min(low, high) <= targets[0].equals <= max(low, high)
 
 
 def _open_loop(found: Tried) -> Fault:
