@@ -17,7 +17,7 @@ from tests.flowsheet.corpus import cases as corpus
 from benchmarks.rows import Row, tell
 from granum.flowsheet import solve
 from granum.flowsheet.packing import compiled
-from granum.numerics import Anderson, Newton
+from granum.numerics import Anderson, Continuation
 
 
 @compiled
@@ -33,22 +33,15 @@ def anderson(line: Any) -> Any:
 
 
 @compiled
-def patient(line: Any) -> Any:
-    """What is tried when that fails."""
-    return solve(line, method=Anderson(window=10, damping=0.4), max_steps=2000)
-
-
-@compiled
-def newton(line: Any) -> Any:
-    """What is tried last; here from empty torn streams."""
-    return solve(line, method=Newton(), max_steps=50)
+def continuation(line: Any) -> Any:
+    """What is tried when that fails; here from empty torn streams."""
+    return solve(line, method=Continuation(), max_steps=60)
 
 
 WAYS = {
     "substitution": substituted,
     "Anderson": anderson,
-    "patient Anderson": patient,
-    "Newton–Krylov": newton,
+    "continuation": continuation,
 }
 
 

@@ -1,10 +1,9 @@
-"""From the quick solver to the patient one: a line is tried with each until it has a solution that stands."""
+"""From the quick solver to the exact one: a line is tried with each until it has a solution that stands."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,9 +14,9 @@ from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import no_stream, nothing_known, solve
-from granum.flowsheet.specifications import PASSES, Designed, Target, among, design, figure
+from granum.flowsheet.specifications import Designed, Target, among, design, figure
 from granum.flowsheet.watching import Watch
-from granum.numerics import Anderson, Newton
+from granum.numerics import Anderson, Continuation
 from granum.streams.stream import Stream
 
 
@@ -29,9 +28,12 @@ class Tried(NamedTuple):
     stands: Any
 
 
-PATIENT: dict[str, Any] = {"method": Anderson(window=10, damping=0.4), "max_steps": 2000}
-EXACT: dict[str, Any] = {"method": Newton(), "max_steps": 50}
-RUNGS = 3
+EXACT: dict[str, Any] = {"method": Continuation(), "max_steps": 60}
+RUNGS = 2
+QUICK = 80
+"""Passes of the quick solver, and again for each specification, before exact derivatives take over."""
+PATIENCE = 20
+"""Passes in which the residual of a loop falls tenfold where the quick solver will do."""
 FIRST = 10
 """Passes through the loops before anybody looks how far they are."""
 PAUSE = 1.0
@@ -60,15 +62,13 @@ def beginning(sheet: Flowsheet, targets: tuple[Target, ...], left: Designed | No
 def at_rung(
     sheet: Flowsheet, targets: tuple[Target, ...], rung: int, begin: Beginning | None = None
 ) -> Designed:
-    """The line as the quick solver (0), from where it may ``begin``, the patient one (1) or Newton's method
-    from where the quick one ends (2) leaves it. Pure, to be batched.
+    """The line as the quick solver (0), from where it may ``begin``, or the exact one from where the quick
+    one ends (1) leaves it. Pure, to be batched.
     """
-    if rung == 1:
-        return design(sheet, targets, sheets=True, **PATIENT)
     if rung == 0:
         given = begin or beginning(sheet, targets)
         return design(sheet, targets, sheets=True, start=given.torn, near=given.near)
-    left = beginning(sheet, targets, design(sheet, targets))
+    left = beginning(sheet, targets, design(sheet, targets, max_steps=QUICK * (1 + len(targets))))
     return design(sheet, targets, sheets=True, start=left.torn, near=left.near, **EXACT)
 
 
@@ -85,15 +85,12 @@ def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], passes: Any, known: 
 
 
 @compiled
-def _patiently(sheet: Flowsheet, targets: tuple[Target, ...], passes: Any, known: tuple[Any, ...]) -> Tried:
-    return _measured(sheet, targets, method=PATIENT["method"], max_steps=passes, known=known)
-
-
-@compiled
-def _by_newton(
-    sheet: Flowsheet, targets: tuple[Target, ...], torn: dict[str, Stream], near: dict[str, Any]
+def _exactly(
+    sheet: Flowsheet, targets: tuple[Target, ...], passes: Any, known: tuple[Any, ...], begin: Beginning
 ) -> Tried:
-    return _measured(sheet, targets, start=torn, near=near, **EXACT)
+    """The same with exact derivatives, from where another solver has left the line."""
+    how = EXACT | {"max_steps": passes}
+    return _measured(sheet, targets, start=begin.torn, near=begin.near, known=known, **how)
 
 
 @compiled
@@ -113,22 +110,20 @@ def climb(
         found = solver() if watch is None else watch.run(solver)
         return found, wrongs(found, targets)
 
-    def by_newton() -> Tried:
+    def exactly() -> Tried:
         left = beginning(sheet, targets, found.designed)
-        return _by_newton(as_arrays(sheet), targets, left.torn, left.near)
+        if targets and not np.all(found.findings.finite):
+            # lost where there is no solution: from the values that the line has
+            settled = _in_passes(_quickly, Anderson(), sheet, (), QUICK, watch)
+            left = beginning(sheet, (), settled.designed)._replace(near=beginning(sheet, targets).near)
+        return _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, left)
 
-    most = PASSES * (1 + len(targets))
+    most = QUICK * (1 + len(targets))
     found, wrong = attempt(lambda: _in_passes(_quickly, Anderson(), sheet, targets, most, watch))
-    patiently = partial(
-        _in_passes, _patiently, PATIENT["method"], sheet, targets, PATIENT["max_steps"], watch
-    )
-    for solver in (patiently, by_newton) if wrong and _loops_fail(sheet, targets, wrong) else ():
-        if watch is not None and (watch.stopped or watch.late):
-            break
-        other, told = attempt(solver)
-        if not told:
-            return other, []
-        if np.all(other.findings.finite) or not np.all(found.findings.finite):
+    late = watch is not None and (watch.stopped or watch.late)
+    if wrong and not late and _may_help(sheet, targets, wrong):
+        other, told = attempt(exactly)
+        if not told or np.all(other.findings.finite) or not np.all(found.findings.finite):
             found, wrong = other, told
     if watch is not None and wrong and (watch.stopped or watch.late):
         wrong = [Fault("stopped", "", "", _stopped(watch)), *wrong]
@@ -155,21 +150,22 @@ def wrongs(found: Tried, targets: tuple[Target, ...]) -> list[Fault]:
 
 def _in_passes(
     solver: Callable[..., Tried],
-    method: Anderson,
+    method: Anderson | Continuation,
     sheet: Flowsheet,
     targets: tuple[Target, ...],
     most: int,
     watch: Watch | None,
+    *begin: Beginning,
 ) -> Tried:
     """The line after some passes at a time, between which the watch is told, until it is solved, hopeless, or
     told to stop.
     """
     known = nothing_known(sheet, method, among(targets), len(targets))
     loops = [block.tears[0] for block in sheet.blocks if block.tears]
-    done, ahead = 0, FIRST
+    done, ahead, looks = 0, FIRST, []
     while True:
         goal, began = min(done + ahead, most), time.monotonic()
-        found = solver(as_arrays(sheet), targets, np.asarray(goal), known)
+        found = solver(as_arrays(sheet), targets, np.asarray(goal), known, *begin)
         spent, solution = time.monotonic() - began, found.designed.solution
         if not solution.known:
             return found
@@ -180,18 +176,30 @@ def _in_passes(
         stop = watch is not None and watch.seen(*told)
         if bool(found.designed.converged) or made < goal or goal >= most or stop:
             return found
+        looks.append((made, max(left, default=0.0)))
+        if not targets and isinstance(method, Anderson) and _stagnates(looks):
+            return found
         # the first look includes tracing and compiling, which say nothing of the passes
         ahead = FIRST if done == 0 else max(1, min(int(PAUSE * (made - done) / spent), 10 * FIRST))
         done, known = made, solution.known
 
 
-def _loops_fail(sheet: Flowsheet, targets: tuple[Target, ...], wrong: list[Fault]) -> bool:
-    """Whether it is a loop that does not come to rest, rather than a specification that is out of reach."""
+def _stagnates(looks: list[tuple[int, float]]) -> bool:
+    """Whether the residual has not fallen tenfold in as many passes as it should."""
+    made, _left = looks[-1]
+    before = [left for number, left in looks if number <= made - PATIENCE]
+    lately = [left for number, left in looks if number > made - PATIENCE]
+    return bool(before) and min(lately) > 0.1 * min(before)
+
+
+def _may_help(sheet: Flowsheet, targets: tuple[Target, ...], wrong: list[Fault]) -> bool:
+    """Whether another solver may find what this one has not: no loop brings a specification into reach."""
     if not any(block.tears for block in sheet.blocks):
         return False
-    if wrong[0].kind != "target":
-        return wrong[0].kind in ("loop", "no value")
-    return any(not np.isfinite(sum(_reach(sheet, t))) for t in targets)
+    if wrong[0].kind != "target" or len(targets) != 1:
+        return wrong[0].kind in ("loop", "no value", "target")
+    low, high = _reach(sheet, targets[0])
+    return not np.isfinite(low + high) or min(low, high) <= targets[0].equals <= max(low, high)
 
 
 def _open_loop(found: Tried) -> Fault:

@@ -17,7 +17,7 @@ from granum.core import flags
 from granum.flowsheet.passing import Made, is_known, known_or, pass_through, where
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
-from granum.numerics import Anderson, Newton, Seeking, Settled, fixed_point, settle, within_rounding
+from granum.numerics import Anderson, Continuation, Seeking, Settled, settle
 from granum.numerics.fixed_points import largest
 from granum.numerics.settled import knowledge
 from granum.streams import audit
@@ -81,12 +81,12 @@ def _run_loop(
     scale: Any,
     sheeted: Collection[str],
     wanted: Wanted | None,
-    method: Anderson | Newton,
+    method: Anderson | Continuation,
     max_steps: int,
     known: Any,
 ) -> tuple[Made, Settled, Any]:
-    """A loop, solved, with what is wanted of it: with Anderson's method the pass through its units stands
-    once in the compiled code. Last the residuals: of each torn stream, and of what is wanted.
+    """A loop, solved, with what is wanted of it. Last the residuals: of each torn stream, and of what is
+    wanted.
     """
     # nothing flows from a unit that has no answer yet, such as a dryer whose gas is still to come round
     first = next(iter(line.feeds.values()))
@@ -118,20 +118,8 @@ def _run_loop(
         return image, (made, jnp.stack([largest(part) for part in apart]))
 
     start = jnp.concatenate([*(_pack(guess[n], scale) for n in block.tears), begun])
-    if isinstance(method, Anderson):
-        how = _with_parameters(method, begun.size)
-        found = settle(once, start, method=how, tolerance=TOLERANCE, max_steps=max_steps, known=known)
-    else:
-        root = fixed_point(
-            lambda x, _args: once(x)[0],
-            start,
-            method=method,
-            tolerance=TOLERANCE,
-            max_steps=max_steps,
-            scale=1.0,
-        )
-        good = root.residual <= within_rounding(root.state, TOLERANCE)
-        found = Settled(root.state, once(root.state)[1], good, root.steps, root.residual)
+    how = _with_parameters(method, begun.size)
+    found = settle(once, start, method=how, tolerance=TOLERANCE, max_steps=max_steps, known=known)
     made, left = found.made
     told = {n: is_known(s) for n, s in made.streams.items()}
     at_rest = {n: where(told[n], s, made.streams[n]) for n, s in torn(found.state).items()}
@@ -178,7 +166,7 @@ def solve(
     *,
     sheets: bool | Collection[str] = False,
     wanted: Wanted | None = None,
-    method: Anderson | Newton = Anderson(),
+    method: Anderson | Continuation = Anderson(),
     max_steps: int = 200,
     known: tuple[Any, ...] | None = None,
 ) -> Solution:
@@ -190,10 +178,10 @@ def solve(
     start: first guesses for torn streams (empty streams otherwise).
     sheets: also work out figures and checks: of every unit, of none, or of those named.
     wanted: parameters to find together with the loops, see ``design``.
-    method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn
-        numbers), which compiles longer and solves some loops that do not contract. max_steps: most passes
-        through a loop, or steps of Newton.
-    known: of an earlier solution by Anderson's method, to go on from there; ``nothing_known`` to begin.
+    method: how loops are brought to rest: ``Anderson``, or ``Continuation``, which finds what is wanted in
+        the same steps, with exact derivatives; it compiles longer and solves loops that do not contract.
+        max_steps: most passes through a loop, or steps of ``Continuation``.
+    known: of an earlier solution by the same method, to go on from there; ``nothing_known`` to begin.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
@@ -260,11 +248,15 @@ def no_stream(line: Flowsheet) -> Stream:
     return empty(feeds[0].mixture, jnp.mean(jnp.stack([s.temperature for s in feeds])), feeds[0].pressure)
 
 
-def _with_parameters(method: Anderson, count: int) -> Anderson | Seeking:
+def _with_parameters(method: Anderson | Continuation, count: int) -> Anderson | Seeking | Continuation:
+    if isinstance(method, Continuation):
+        return Continuation(count)
     return Seeking(count, method, TOLERANCE) if count else method
 
 
-def nothing_known(line: Flowsheet, method: Anderson, among: frozenset[str], count: int) -> tuple[Any, ...]:
+def nothing_known(
+    line: Flowsheet, method: Anderson | Continuation, among: frozenset[str], count: int
+) -> tuple[Any, ...]:
     """What a solver begins with that is called for some passes at a time, ``count`` parameters being wanted
     ``among`` units.
     """

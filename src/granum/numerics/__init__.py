@@ -14,6 +14,7 @@ _HOME = {
     "Settled": "settled",
     "within_rounding": "fixed_points",
     "Seeking": "seeking",
+    "Continuation": "continuation",
     "solve_system": "fixed_points",
     "Solution": "fixed_points",
     "AbstractMethod": "fixed_points",

@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
+from granum.numerics.continuation import Continuation
 from granum.numerics.fixed_points import Anderson, as_real, solve_linear, within_rounding
 from granum.numerics.implicit import converted
 from granum.numerics.seeking import Seeking
@@ -33,7 +34,7 @@ def settle(
     function: Callable[[jax.Array], tuple[jax.Array, Any]],
     start: jax.Array,
     *,
-    method: Anderson | Seeking = Anderson(),
+    method: Anderson | Seeking | Continuation = Anderson(),
     tolerance: float = 1e-10,
     max_steps: int = 200,
     known: jax.Array | None = None,
@@ -42,8 +43,8 @@ def settle(
     results on the way.
 
     The function is run once in Python and stands once in the compiled code, so that a large one compiles
-    fast. Derivatives with respect to closed-over values follow from the implicit function theorem, forward
-    and reverse, for the state and what is made.
+    fast; with ``Continuation`` its derivative stands there too. Derivatives with respect to closed-over
+    values follow from the implicit function theorem, forward and reverse, for the state and what is made.
 
     ``known``, of an earlier outcome, goes on where that was left, ``max_steps`` counting from the beginning;
     zeros (``knowledge`` says how many) begin. Of a function that never gives a number, what the first pass
@@ -73,8 +74,13 @@ def settle(
     def searched(given: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
             iteration, kept = carry
-            image, made = traced(given, iteration[0])
-            following = method.proceed(iteration, image - iteration[0])
+            x = iteration[0]
+            if isinstance(method, Continuation):
+                image, linear, made = jax.linearize(lambda x: traced(given, x), x, has_aux=True)
+                following = method.proceed(iteration, image - x, lambda v: linear(v) - v)
+            else:
+                image, made = traced(given, x)
+                following = method.proceed(iteration, image - x)
             better = (following[1][1] < iteration[1][1]) | (iteration[-1] == 0)
             return following, jnp.where(better, made, kept)
 
@@ -117,7 +123,7 @@ def settle(
     return Settled(x, made, converged, number.astype(int), size, lax.stop_gradient(left))
 
 
-def knowledge(method: Anderson | Seeking, size: int) -> int:
+def knowledge(method: Anderson | Seeking | Continuation, size: int) -> int:
     """How many numbers an iteration over so many unknowns knows."""
     shapes = jax.eval_shape(method.begin, jax.ShapeDtypeStruct((size,), float))
     return 1 + sum(leaf.size for leaf in jax.tree.leaves(shapes))

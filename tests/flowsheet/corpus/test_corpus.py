@@ -17,7 +17,7 @@ from granum.flowsheet import Flowsheet, closures, solve
 from granum.flowsheet.packing import compiled
 from granum.flowsheet.run import Line
 from granum.flowsheet.specifications import Target
-from granum.numerics import Anderson, Newton
+from granum.numerics import Anderson, Continuation
 from granum.streams.equipment.basics import Mixer, Splitter
 
 _solve = compiled(lambda line: solve(line))
@@ -48,8 +48,8 @@ def test_what_has_no_steady_state_is_refused(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["eight components, gains 1e-4 to 0.9999", "swinging, slope -5"])
-def test_newton_finds_the_same(name: str) -> None:
-    """Newton–Krylov, with which a line is tried last, and its derivative; all of the corpus:
+def test_continuation_finds_the_same(name: str) -> None:
+    """Continuation, with which a line is tried last, and its derivative; all of the corpus:
     ``benchmarks/recycles.py``.
     """
     line = corpus.CASES[name]().line
@@ -62,7 +62,7 @@ def test_newton_finds_the_same(name: str) -> None:
 
     one, other = (
         jax.jit(lambda x, m=m: jax.jvp(lambda y: product(y, m), (x,), (1.0,)))(1.0)
-        for m in (Anderson(), Newton())
+        for m in (Anderson(), Continuation())
     )
     assert one[0][-1] == other[0][-1] == 1.0
     assert np.allclose(one[0], other[0], rtol=1e-9)
