@@ -10,12 +10,15 @@ from __future__ import annotations
 import html
 import importlib
 import inspect
+import posixpath
 import re
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+import chapters
 import validation
+from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File
 
 from granum.app.forms import bounds_text, range_text
@@ -26,6 +29,7 @@ from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import pretty_unit
 from granum.reports.mathml import mathml
 from granum.reports.quantities import limit_rows, value_text
+from granum.reports.stated import with_equations, with_numbers
 from granum.reports.utilities import utility_rows
 
 ROOT = Path(__file__).parent.parent
@@ -44,6 +48,7 @@ WORDS = {
         "Kind",
         "formula",
         "cards",
+        "The chapter of the handbook",
     ],
     "fr": [
         "Fiches",
@@ -59,6 +64,7 @@ WORDS = {
         "Sorte",
         "formule",
         "fiches",
+        "Le chapitre du manuel",
     ],
 }
 FOLDERS = {"en": "cards", "fr": "cards-fr"}
@@ -142,16 +148,55 @@ def on_files(files_: Any, config: Any) -> Any:
     return files_
 
 
-def on_page_markdown(markdown: str, **_more: Any) -> str:
-    """Replace ``[[word name …]]`` on a line of its own."""
+def on_page_markdown(markdown: str, page: Any, **_more: Any) -> str:
+    """Replace ``[[word name …]]`` on a line of its own; in a chapter of the handbook also what it states."""
+    place = page.file.src_uri
+    code = "fr" if place.startswith("fr/") else "en"
+    domain = Path(place).stem
+    if place == chapters.PLACES[code].format(domain) and domain in chapters.domains():
+        markdown = _chapter(markdown, domain, code)
+
+    def to_card(found: re.Match[str]) -> str:
+        card = registry.find(found[2]).card
+        there = f"{FOLDERS[code]}/{card.domain}.md"
+        return f"[{found[1]}]({posixpath.relpath(there, posixpath.dirname(place))}#{_anchor(card)})"
+
+    markdown = re.sub(r"\[([^\]]+)\]\(card:([\w.]+)\)", to_card, markdown)
     return re.sub(
         r"^\[\[(\w+) (.+?)\]\]$", lambda found: PARTS[found[1]](found[2]), markdown, flags=re.MULTILINE
     )
 
 
+def _chapter(text: str, domain: str, code: str) -> str:
+    """A chapter with its numbers, equations, figures and calculations; one that states what is no longer
+    calculated ends the build.
+    """
+    if wrong := chapters.moved(domain, code):
+        raise PluginError("\n".join(wrong))
+    with language(code):
+        text = with_equations(with_numbers(text))
+
+    def drawn(found: re.Match[str]) -> str:
+        data = chapters.figure(domain, found[1], code).replace("</", "<\\/")
+        return _plot(data, found[2])
+
+    text = re.sub(
+        r"^\[\[figure (\w+)\]\]\n\n\*(.+)\*$", lambda m: drawn(m) + f"\n\n*{m[2]}*", text, flags=re.M
+    )
+    return re.sub(
+        r"^\[\[code (\w+)\]\]$",
+        lambda m: f"```python\n{chapters.code(domain, m[1])}\n```",
+        text,
+        flags=re.M,
+    )
+
+
 # ---- parts of theory pages -------------------------------------------------------------------------
 def _figure(figure: Any, label: str) -> str:
-    data = figure.to_json().replace("</", "<\\/")
+    return _plot(figure.to_json().replace("</", "<\\/"), label)
+
+
+def _plot(data: str, label: str) -> str:
     return (
         f'<div class="plot" role="group" aria-label="{html.escape(label)}"><script '
         f'type="application/json">{data}</script>'
@@ -217,7 +262,12 @@ def _card_pages(code: str) -> dict[str, str]:
         cards = [thing.card for thing in registry.everything((domain,)).values()]
         total += len(cards)
         title = DOMAIN_TITLES[code][domain]
-        pages[domain] = f"# {title}\n\n" + "\n".join(
+        chapter = (
+            f"[{words[13]}](../{chapters.PLACES[code].format(domain)})\n\n"
+            if domain in chapters.domains()
+            else ""
+        )
+        pages[domain] = f"# {title}\n\n{chapter}" + "\n".join(
             part for name, found in _by_module(cards) for part in _room(name, found, words)
         )
         lines.append(f"* [{title}]({domain}.md): {len(cards)} {words[12]}")
@@ -242,7 +292,7 @@ def _room(module: str, cards: list[Card], words: list[str]) -> list[str]:
 
 
 def _section(card: Card, words: list[str]) -> str:
-    anchor = card.name.replace("_", "-")
+    anchor = _anchor(card)
     parts = [
         f"### {_escape(card.title)} {{ #{anchor} }}\n",
         f"`{card.key}` · {_(card.sort)}\n",
@@ -283,6 +333,10 @@ def _section(card: Card, words: list[str]) -> str:
             f"<details><summary>{'Example and remarks' if words is WORDS['en'] else 'Exemple et remarques'}</summary><pre lang='en'><code>{html.escape(rest)}</code></pre></details>\n"  # noqa: E501
         )
     return "\n".join(parts)
+
+
+def _anchor(card: Card) -> str:
+    return card.name.replace("_", "-")
 
 
 def _inputs(card: Card, words: list[str]) -> str:

@@ -14,12 +14,17 @@ from granum.app.shipped import pages
 from granum.core.errors import unknown_name
 from granum.core.i18n import _, language
 from granum.core.index import entries
+from granum.reports.stated import with_equations, with_numbers
 
 _HEADING = re.compile(r"^#+\s+(.+)$", re.MULTILINE)
 _FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 _MADE = re.compile(r"^\[\[(\w+)[^\]\n]*\]\]\s*$", re.MULTILINE)  # plots and tables that the site makes
 _CARD = re.compile(r"\[\[card (\S+)\]\]")
 _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
+
+
+_TO_CARD = re.compile(r"\]\(card:([\w.]+)\)")
+CHAPTERS = ("handbook/", "fr/manuel/")
 
 
 class Page(NamedTuple):
@@ -40,6 +45,9 @@ def page(name: str) -> Page:
     text = pages()[name].read_text(encoding="utf-8")
     headings = [found.replace("`", "") for found in _HEADING.findall(_FENCE.sub("", text))]
     code = "fr" if name.startswith("fr/") else "en"
+    if name.startswith(CHAPTERS):
+        with language(code):
+            text = with_numbers(text)
     return Page(name, headings[0] if headings else name, code, tuple(headings[1:]), text)
 
 
@@ -65,9 +73,19 @@ def as_html(name: str) -> dict[str, Any]:
         with language(found.language):
             return f"[{card.title}](#/find/{quote(match[1], safe='')})" if card else ""
 
+    made: list[str] = []
+
+    def aside(equation: str) -> str:
+        made.append(equation)
+        return f"\ue000{len(made) - 1}\ue001"
+
     text = _MADE.sub("", _CARD.sub(of_card, found.text))
+    text = _TO_CARD.sub(lambda m: f"](#/find/{quote(m[1], safe='')})", text)
+    if name.startswith(CHAPTERS):
+        text = with_equations(text, aside)
     text = _LINK.sub(lambda m: m[0] if m[2].startswith("#/") else _link_to(found.name, m[1], m[2]), text)
     shown = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
+    shown = re.sub("\ue000(\\d+)\ue001", lambda m: made[int(m[1])], shown)
     shown = shown.replace("<table>", '<div class="wide" tabindex="0" role="region"><table>')
     return {
         "title": html.unescape(found.title),

@@ -48,12 +48,14 @@ def description_of(name: str) -> str:
 
 @cache
 def pages() -> dict[str, Path]:
-    """Guides, theory and errata by name, as ``guides/first-hour``."""
+    """Guides, theory, handbook and errata by name, as ``guides/first-hour``."""
     root = _folder("docs")
     found = [
         *root.glob("guides/*.md"),
         *root.glob("theory/*.md"),
+        *root.glob("handbook/*.md"),
         *root.glob("fr/*.md"),
+        *root.glob("fr/manuel/*.md"),
         *root.glob("errata.md"),
     ]
     names = {place.relative_to(root).with_suffix("").as_posix(): place for place in sorted(found)}

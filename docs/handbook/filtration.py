@@ -1,0 +1,136 @@
+"""What the chapter on filtration states, calculated."""
+
+from pathlib import Path
+
+from validation import filtration_leaf, filtration_pressures
+
+import granum as gr
+from granum.app.shipped import examples_folder
+
+f = gr.filtration
+TESTS = Path(examples_folder()) / "leaf-filter"
+
+# ---- leaf
+leaf = f.LeafTest.read(
+    TESTS / "leaf_geankoplis.csv",
+    area="0.0439 m2",
+    pressure_drop="338 kPa",
+    dynamic_viscosity="0.8937 cP",
+    dry_cake_per_filtrate="23.47 g/L",
+)
+fit = leaf.fit()
+alpha, medium = fit["cake_resistance"], fit["medium_resistance"]
+# ---- cloth
+# of cake that resists as the cloth does: solid of 2700 kg/m³, half of the cake void
+thickness_equal = medium.value / alpha.value / 1.35e3
+
+# ---- pressures
+pressures = f.Compressibility.read(
+    TESTS / "pressures_mccabe.csv",
+    area="440 cm2",
+    dynamic_viscosity="0.8937 cP",
+    dry_cake_per_filtrate="23.5 g/L",
+).fit()
+n = pressures["compressibility"].value
+# ---- gains
+low_n, high_n = pressures["compressibility"].interval_95
+gain_carbonate = 2 ** (1 - n)  # flux at twice the pressure
+gain_sludge = 2 ** (1 - 0.85)
+
+# ---- course
+voids = f.void_fraction_cake(dry_cake_mass="0.236 kg", cake_volume="145 cm3", solid_density=2630)
+alpha_course = f.cake_resistance_kozeny_carman(
+    particle_diameter="85 um", void_fraction=0.38, solid_density=2630
+)
+volume_course = f.filtrate_volume_constant_pressure(
+    "5 min", "0.5 m2", "0.8 bar", "1.2 cP", alpha_course, 15.3
+)
+# ---- loose
+alpha_loose = f.cake_resistance_kozeny_carman(
+    particle_diameter="85 um", void_fraction=0.43, solid_density=2630
+)
+
+# ---- press
+slurry = {
+    "dynamic_viscosity": "0.8937 cP",
+    "cake_resistance": alpha.value,
+    "medium_resistance": medium.value,
+    "dry_cake_per_filtrate": 23.47,
+}
+press = f.filtration_cycle(area="50 m2", pressure_drop="3.38 bar", dead_time="30 min", **slurry)
+drum_flow = f.filtrate_flow_drum(
+    area="50 m2", cycle_time="2 min", submergence=0.35, pressure_drop="0.6 bar", **slurry
+)
+# ---- compared
+rate = press.dry_cake_mass / press.cycle_time
+cake = float(press.dry_cake_mass) / 50 / (2710 * 0.5)
+twice = 2 * float(press.filtration_time)
+volume_twice = f.filtrate_volume_constant_pressure(
+    twice, "50 m2", "3.38 bar", **{k: slurry[k] for k in slurry}
+)
+lost = 1 - (float(volume_twice) / (twice + 1800)) / float(press.mean_filtrate_flow)
+drum_rate = float(drum_flow) * 23.47
+drum_cake = drum_rate * 120 / 50 / (2710 * 0.5)
+
+# ---- wash
+left_good = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=50)
+left_poor = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=5)
+left_dahlstrom = f.solute_remaining_dahlstrom(wash_ratio=1.5, displacement_efficiency=0.7)
+
+# ---- blow
+threshold = f.threshold_pressure_cake(
+    particle_diameter="20 um", void_fraction=0.45, surface_tension="0.072 N/m"
+)
+threshold_fine = f.threshold_pressure_cake(
+    particle_diameter="2 um", void_fraction=0.45, surface_tension="0.072 N/m"
+)
+permeability = f.cake_permeability(cake_resistance="1e10 m/kg", void_fraction=0.45, solid_density=2710)
+blown = [
+    float(
+        f.saturation_after_deliquoring(
+            t, "2 bar", permeability, "1 cP", 0.45, "20 mm", irreducible_saturation="20 %"
+        )
+    )
+    for t in ("30 s", "1 min", "5 min")
+]
+moisture = [
+    float(f.moisture_dry_basis_cake(s, void_fraction=0.45, liquid_density=1000, solid_density=2710))
+    for s in blown
+]
+
+# ---- sand
+capture = {
+    d: float(
+        f.collector_efficiency_tufenkji(
+            particle_diameter=f"{d} um",
+            collector_diameter="0.6 mm",
+            superficial_velocity="8 m/hour",
+            void_fraction=0.42,
+            particle_density=1050,
+            fluid_density=998,
+            dynamic_viscosity="1 cP",
+        )
+    )
+    for d in (0.1, 1, 10)
+}
+coefficient = {
+    d: float(f.filter_coefficient(x, "0.6 mm", 0.42, attachment_efficiency=0.5)) for d, x in capture.items()
+}
+passed = {d: float(f.concentration_iwasaki(1.0, k, "0.8 m")) for d, k in coefficient.items()}
+head = f.head_loss_clean_bed("0.8 m", "0.6 mm", "8 m/hour", 0.42, "1 cP", 998)
+
+
+def figure_leaf():
+    return filtration_leaf().figure
+
+
+def figure_pressures():
+    return filtration_pressures().figure
+
+
+def figure_cycle():
+    return f.filtration_cycle_chart(area="50 m2", pressure_drop="3.38 bar", dead_time="30 min", **slurry)
+
+
+def figure_washing():
+    return f.washing_chart(dispersion_number=5.0)

@@ -1,0 +1,64 @@
+"""What the chapters of the handbook state is what the program calculates."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from granum.app.reading import as_html
+from granum.core.i18n import language
+from granum.reports.stated import STATED, printed_number, stated_number
+
+FIGURE = re.compile(r"^\[\[figure (\w+)\]\]$", re.MULTILINE)
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+@pytest.fixture
+def chapters(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
+    monkeypatch.syspath_prepend(str(DOCS))
+    import chapters
+
+    monkeypatch.setattr(chapters, "KEPT", tmp_path)
+    yield chapters
+    sys.modules.pop("chapters")
+
+
+def test_chapters_state_what_is_calculated(chapters: Any) -> None:
+    for domain in chapters.domains():
+        said = [sorted(m[1] for m in STATED.finditer(chapters.chapter_text(domain, c))) for c in ("en", "fr")]
+        assert said[0] == said[1]
+        for code in ("en", "fr"):
+            assert chapters.moved(domain, code) == []
+
+
+def test_a_result_that_moved_is_told(chapters: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(chapters, "chapter_text", lambda *_: "about {{voids = 0.39}} of it")
+    assert "voids = 0.39" in chapters.moved("filtration", "en")[0]
+
+
+def test_figures_are_drawn_and_kept(chapters: Any) -> None:
+    for domain in chapters.domains():
+        for code in ("en", "fr"):
+            for name in FIGURE.findall(chapters.chapter_text(domain, code)):
+                first = chapters.figure(domain, name, code)
+                assert '"data"' in first
+                assert first == chapters.figure(domain, name, code)
+
+
+def test_a_number_is_printed_as_its_language_does() -> None:
+    assert printed_number("12345.6 kg/m^3") == "12\u202f345.6\u00a0kg/m³"
+    with language("fr"):
+        assert printed_number("0,5 %") == "0,5\u00a0%"
+    assert stated_number("1,86e11 m/kg").step == 1e9
+
+
+@pytest.mark.parametrize("name", ["handbook/filtration", "fr/manuel/filtration"])
+def test_a_chapter_is_read_in_the_app(name: str) -> None:
+    shown = as_html(name)["html"]
+    assert "{{" not in shown
+    assert "<math" in shown
+    assert "#/find/filtration.leaf_test" in shown
