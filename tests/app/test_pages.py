@@ -497,8 +497,8 @@ def test_series_are_read_in_full_and_taken_along(page: Page) -> None:
 
 
 OFF = (
-    "The energy balance of unit 'mill' is off by 0.018 of its turnover: its temperatures and duties cannot "
-    "be used."
+    "Unit 'mill' does not conserve energy: 1.8 % of what flows in and out is missing or too much, where "
+    "1 × 10⁻⁷ % is allowed. Its temperatures and duties cannot be used."
 )
 ANSWERED = """
     const sent = window.fetch;

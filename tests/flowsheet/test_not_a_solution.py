@@ -65,7 +65,7 @@ def refusal(line: Line, watch: Watch | None = None) -> ConvergenceError:
     ("unit", "words"),
     [
         (Leak(), "'middle' does not conserve water"),
-        (Warmer(), "energy balance of unit 'middle'"),
+        (Warmer(), "'middle' does not conserve energy"),
         (Nowhere(), "from unit 'middle' has no temperature"),
         (Unsettled(), "Unit 'middle' has no solution"),
     ],

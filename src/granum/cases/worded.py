@@ -159,7 +159,8 @@ def _limits(words: Sequence[str], path: Any) -> dict[str, dict[str, str]]:
         if match is None or not match[1].strip() or not match[3].strip():
             raise InputError(
                 _(
-                    "'{word}' is not a limit: write it as moisture_dry_basis<=3% or residence_time>=10min."
+                    "'{word}' is not a limit: write it as 'moisture_dry_basis<=3%' or "
+                    "'residence_time>=10min'."
                 ).format(word=word)
             )
         name, sign, value = (part.strip() for part in match.groups())

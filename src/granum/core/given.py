@@ -92,7 +92,7 @@ def number_or_array(value: Any, name: str, where: str, example: str) -> Any:
 def not_a_number(name: str, where: str) -> InputError:
     """The error for a NaN where one value is due."""
     return InputError(
-        _("'{name}' is not a number (NaN){where}: give its value.").format(name=name, where=where), name=name
+        _("'{name}' is not a number{where}: give its value.").format(name=name, where=where), name=name
     )
 
 

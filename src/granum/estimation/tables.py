@@ -83,9 +83,10 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
         for mark in marks
         if any(_DECIMAL[mark].fullmatch(text) and not _IN_THREES[mark].fullmatch(text) for text in texts)
     }
+    others = [name for name in places if name not in {p.name for p in columns}]
     for p in columns:
         if p.name not in places:
-            close = nearest(p.name, places)
+            close = nearest(p.name, others)
             if p.required or (
                 close
                 and nearest(close, [p.name])

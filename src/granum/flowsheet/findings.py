@@ -304,9 +304,15 @@ def _of_balance(line: Flowsheet, found: Findings, unit: str) -> Iterator[Fault]:
             unit,
             "",
             _(
-                "The energy balance of unit '{unit}' is off by {share} of its turnover: its "
-                "temperatures and duties cannot be used."
-            ).format(unit=unit, share=format_number(float(found.energy[i]), 2)),
+                "Unit '{unit}' does not conserve energy: {share} % of what flows in and out is missing or "
+                "too much, where {allowed} % is allowed. Its temperatures and duties cannot be used. Check "
+                "its settings and the state of what enters; if both are ordinary, the model of the unit "
+                "is at fault."
+            ).format(
+                unit=unit,
+                share=format_number(100.0 * float(found.energy[i]), 2),
+                allowed=format_number(100.0 * CLOSURE, 2),
+            ),
         )
 
 

@@ -7,6 +7,7 @@ import {
   useAnswer,
   useState,
   useEffect,
+  useRef,
   replaceLink,
   settings,
   Working,
@@ -33,6 +34,7 @@ export function Desk({ state }) {
 function Work({ card, given }) {
   const [values, setValues] = useState(given);
   const [past, setPast] = useState([]);
+  const edited = useRef('');
   const words = JSON.stringify(values);
   useEffect(() => replaceLink('calculate', card.card, values), [words]);
   const form = useAnswer(
@@ -47,7 +49,9 @@ function Work({ card, given }) {
     0,
   );
   const set = (name, value) => {
-    setPast([...past.slice(-50), values]);
+    // what is typed in one field in one go is one step back
+    if (edited.current !== name) setPast([...past.slice(-50), values]);
+    edited.current = name;
     setValues({ ...values, [name]: value });
   };
   const problem = form.error || answer.error;
@@ -57,29 +61,36 @@ function Work({ card, given }) {
     html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
   const needed = form.data?.parameters.filter((p) => p.required || form.data.values[p.name] !== undefined);
   const more = form.data?.parameters.filter((p) => !needed.includes(p));
-  const toLines = async (e) => {
+  /** The machine as a line of its own, handed to another page. */
+  const handTo = (page) => async (e) => {
     e.preventDefault();
+    if (!text) return;
     const place = `computer:${card.card.split('.')[1]}.toml`;
     keepDraft(place, text);
-    location.hash = link('lines', place, { case: await packed(text) });
+    location.hash = link(page, place, { case: await packed(text) });
   };
   return html`<section aria-label=${t('Enter')} aria-busy=${String(!form.data && !form.error)}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       ${
         form.data &&
-        html`<form onSubmit=${(e) => e.preventDefault()}>${needed.map(field)}
+        html`<form onSubmit=${(e) => e.preventDefault()} onfocusout=${() => {
+          edited.current = '';
+        }}>${needed.map(field)}
         ${more.length > 0 && html`<details class="more"><summary>${t('More ({count})', { count: more.length })}</summary>${more.map(field)}</details>`}
         ${form.data.groups.map((group, i) => html`<details class="inlet" key=${group.name} open=${i === 0} data-inlet=${group.name}><summary>${group.title}</summary>${group.parameters.map(field)}</details>`)}</form>
         ${form.data.without.length > 0 && html`<p class="small dim">${t('Without: {names}. In a line these inlets can be used too.', { names: form.data.without.join(', ') })}</p>`}`
       }
       <div class="row"><button class="button" disabled=${!past.length} onClick=${() => {
+        edited.current = '';
         setValues(past.at(-1));
         setPast(past.slice(0, -1));
       }}>${t('Undo')}</button>
       <button class="button" onClick=${() => {
+        edited.current = '';
         setPast([...past.slice(-50), values]);
         setValues({});
       }}>${t('Example values')}</button>
-      <a class="button" href=${link('lines')} onClick=${toLines} aria-disabled=${String(!text)}>${t('Put it in a line')}</a></div></section>
+      <a class="button" href=${link('studies')} onClick=${handTo('studies')} aria-disabled=${String(!text)}>${t('Study')}</a>
+      <a class="button" href=${link('lines')} onClick=${handTo('lines')} aria-disabled=${String(!text)}>${t('Put it in a line')}</a></div></section>
     <section aria-label=${t('Believe')}>
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
       <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />

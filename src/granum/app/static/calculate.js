@@ -131,7 +131,7 @@ function Work({ page, card, given }) {
     setTimeout(() => setCopied(''), 4000);
   };
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
-      <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => {
+      <form onSubmit=${(e) => e.preventDefault()} onfocusout=${() => {
         edited.current = '';
       }}><${Fields} card=${card} all=${inForm} values=${values} onChange=${(p, text) => {
         if (p.name === sought?.name) setSought(null);

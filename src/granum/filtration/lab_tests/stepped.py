@@ -84,7 +84,7 @@ class SteppedPressureTest(LabTest):
             )
         if p[steady].max() < LEAST_RATIO * p[steady].min():
             raise InputError(
-                _("The pressure hardly changes: fit the test as one at constant pressure (leaf_test)."),
+                _("The pressure hardly changes: fit it as a leaf test at constant pressure."),
                 name="pressure_drop",
             )
         first = np.cumprod(p < SAME_STEP * p[0]).astype(bool)

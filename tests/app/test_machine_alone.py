@@ -1,0 +1,81 @@
+"""A piece of equipment alone: undone in steps that people made, and studied as it stands on the screen."""
+
+from __future__ import annotations
+
+import httpx
+import pytest
+from selenium.webdriver.common.keys import Keys
+from tests.app.browsing import Page
+
+PUMP = "calculate/streams.pump"
+RISE = "#field-pressure_rise"
+DIAMETER = "#field-particle_diameter"
+STUDY, UNDO = {"en": "Study", "fr": "Étudier"}, {"en": "Undo", "fr": "Annuler"}
+
+
+@pytest.mark.parametrize(
+    ("place", "field", "figures"),
+    [("calculate/particles.terminal_velocity", DIAMETER, "[data-output]"), (PUMP, RISE, "[data-figure]")],
+)
+def test_a_field_left_and_entered_again_is_another_step_back(
+    page: Page, place: str, field: str, figures: str
+) -> None:
+    page.open(place)
+    page.one(figures)
+    before = page.one(field).get_attribute("value")
+    for text in ("91", "92"):
+        page.type(field, text).send_keys(Keys.TAB)
+    for wanted in ("91", before):
+        page.button("Undo").click()
+        page.until(lambda wanted=wanted: page.one(field).get_attribute("value") == wanted)
+    assert not page.button("Undo").is_enabled()
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_a_machine_alone_is_studied_as_it_stands_on_the_screen(page: Page, language: str) -> None:
+    page.open(PUMP, language)
+    page.one("[data-figure]")
+    page.type(RISE, "7").send_keys(Keys.TAB)
+    page.settle()
+    page.until(lambda: next((a for a in page.all("a.button") if a.text == STUDY[language]), None)).click()
+    page.one(".varied")
+    page.settle()
+    menu = page.one(".varied select")
+    names = [o.get_attribute("value") for o in menu.find_elements("tag name", "option")]
+    name = next(n for n in names if n.endswith(".pressure_rise"))
+    page.browser.execute_script(
+        "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('change', {bubbles: true}))",
+        menu,
+        name,
+    )
+    page.until(lambda: "7" in page.one(".varied .dim").text)
+    page.one(".button.main").click()
+    page.until(lambda: page.all(".js-plotly-plot"))
+    page.check()
+
+
+KINDS = {
+    "sweep": {"over": {"pump.pressure_rise": {"from": "2 bar", "to": "6 bar", "steps": 3}}},
+    "monte_carlo": {
+        "samples": 16,
+        "uncertain": {
+            "pump.pressure_rise": {"distribution": "normal", "mean": "4 bar", "standard_deviation": "0.2 bar"}
+        },
+    },
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_study_of_a_machine_alone_needs_no_file(kind: str, address: str) -> None:
+    with httpx.Client(base_url=address, timeout=240, headers={"x-language": "en"}) as client:
+        case = client.post("/api/alone/streams.pump", json={"pressure_rise": "4 bar"}).json()["case"]
+        asked = {"case": case, "place": "computer:pump.toml"}
+        choices = client.post("/api/studies/choices", json=asked).json()
+        figure = next(f["name"] for f in choices["figures"] if f["name"].endswith(".electric_power"))
+        table = {"kind": kind, "outputs": [figure], **KINDS[kind]}
+        job = client.post("/api/studies", json=asked | {"table": table}).json()["id"]
+        found = client.get(f"/api/studies/{job}").json()
+        while found["state"] not in ("done", "failed"):
+            found = client.get(f"/api/studies/{job}").json()
+        assert found["state"] == "done", found
+        assert found["outcome"]["counts"]["failed"] == 0

@@ -1,0 +1,95 @@
+"""What the program tells speaks the words of people: no Python, no sentence twice, French apostrophes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tests.contracts.test_french import MESSAGES
+
+import granum
+from granum.core.i18n import catalog
+
+STATIC = Path(granum.__file__).parent / "app" / "static"
+CALLED = re.compile(r"""\bt\(\s*('(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""")
+PAIR = re.compile(
+    r"""^\s*('(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*"|\w+):\s*('(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*"),?$""",
+    re.MULTILINE,
+)
+_ERRORS = "Errors: InputError for a value outside of its bounds."  # of ``help()``
+IN_PYTHON = {_ERRORS, catalog("fr")[_ERRORS]}
+PYTHON = re.compile(
+    r"\b(?:None(?! of)|True|False|NaN|nan|dict|tuple|kwargs|ndarray|str|float)\b|\b[A-Z][a-z]+[A-Z]\w*"
+)
+SNAKE = re.compile(r"(?<![\w./\[`'\"{<=])[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?![\w./\]`'\"}>=(])")
+
+
+def bare(text: str) -> str:
+    return text.strip("'\"").replace(r"\'", "'").replace(r"\"", '"').replace(r"\n", "\n")
+
+
+def of_the_page() -> dict[str, str]:
+    """Texts of the page with their French."""
+    table = (STATIC / "strings.fr.js").read_text(encoding="utf-8")
+    return {bare(en): bare(fr) for en, fr in PAIR.findall(table)}
+
+
+def told() -> Iterator[str]:
+    """Every message in both languages."""
+    french = catalog("fr")
+    for message in MESSAGES:
+        yield message
+        yield french.get(message, "")
+    yield from (text for pair in of_the_page().items() for text in pair)
+    for place in STATIC.glob("*.js"):
+        yield from map(bare, CALLED.findall(place.read_text(encoding="utf-8")))
+
+
+TOLD = sorted({text for text in told() if text})
+
+
+def without_code(text: str) -> str:
+    """A message without its placeholders and what it says to type."""
+    return re.sub(r"\{[^{}]*\}|`[^`]*`|'[^']*'|\"[^\"]*\"|«[^«»]*»|\[[^\[\]]*\]", "·", text)
+
+
+def test_all_are_walked() -> None:
+    assert len(of_the_page()) > 300
+    assert len(TOLD) > 2000
+
+
+def test_no_message_names_what_only_python_knows() -> None:
+    found = {
+        text: m[0] for text in TOLD if text not in IN_PYTHON and (m := PYTHON.search(without_code(text)))
+    }
+    assert not found
+
+
+def test_no_message_holds_an_identifier() -> None:
+    found = {text: m[0] for text in TOLD if " " in text and (m := SNAKE.search(without_code(text)))}
+    assert not found
+
+
+@pytest.mark.parametrize(
+    "text", ["The value is None.", "terminal_velocity is negative", "A LeafTest is needed"]
+)
+def test_a_name_of_python_would_be_seen(text: str) -> None:
+    assert PYTHON.search(without_code(text)) or SNAKE.search(without_code(text))
+
+
+def test_no_message_says_a_sentence_or_a_word_twice() -> None:
+    twice = []
+    for text in TOLD:
+        sentences = [s.strip().lower() for s in re.split(r"(?<=[.!?:;])\s+", text) if len(s.split()) > 2]
+        words = re.search(r"\b([^\W\d_]{2,})\s+\1\b", text, re.IGNORECASE)
+        if len(set(sentences)) < len(sentences) or (words and words[1].lower() not in ("nous", "vous")):
+            twice.append(text)
+    assert not twice
+
+
+def test_french_of_the_page_and_of_the_program_has_its_apostrophe() -> None:
+    french = {**{m: catalog("fr").get(m, "") for m in MESSAGES}, **of_the_page()}
+    wrong = [text for text in french.values() if re.search(r"[^\W\d_]'[^\W\d_]", text)]
+    assert not wrong
