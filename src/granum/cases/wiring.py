@@ -7,7 +7,17 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from granum.cases.outline import Outline, ends_of, free_name, identifier, numbered, outline, pretty, table_of
+from granum.cases.outline import (
+    Outline,
+    ends_of,
+    free_name,
+    identifier,
+    numbered,
+    outline,
+    port_label,
+    pretty,
+    table_of,
+)
 from granum.cases.sections import (
     checked,
     renamed_table,
@@ -147,8 +157,14 @@ def _led(case: str, found: Outline, origin: str, target: str) -> str:
     link = _leaving(found, origin)
     if not link.origin or "." not in link.name:
         return _leading(case, found, link.name, target)
-    name = _free_stream(found, f"{link.source_unit}_{link.origin.partition('.')[2]}")
+    name = _free_stream(found, _named_after(link.origin))
     return with_value(case, ("streams",), name, [link.origin, target])
+
+
+def _named_after(origin: str) -> str:
+    """The name of a connection after the outlet it comes from, in words of the user's language."""
+    unit, _dot, port = origin.partition(".")
+    return identifier(f"{unit} {port_label(port)}")
 
 
 def _free_stream(found: Outline, wanted: str) -> str:
@@ -163,7 +179,7 @@ def _leading(case: str, found: Outline, stream: str, target: str) -> str:
     if isinstance(table, dict):
         return with_value(case, ("streams", stream), "to", target)
     origin, _old = ends_of(table)
-    if not target and stream.startswith(origin.replace(".", "_")):
+    if not target and stream.startswith((origin.replace(".", "_"), _named_after(origin))):
         return without_value(case, ("streams",), stream)  # a name that was only made for the connection
     return with_value(case, ("streams",), stream, [origin, target] if target else [origin])
 

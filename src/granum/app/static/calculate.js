@@ -84,7 +84,11 @@ function Work({ page, card, given }) {
   const solved = useAnswer(
     (signal) =>
       ready
-        ? ask(`/api/solve/${card.card}`, { inputs: values, find: sought.name, output: sought.output, wanted: sought.text }, { signal })
+        ? ask(
+            `/api/solve/${card.card}`,
+            { inputs: values, find: sought.name, output: sought.output, wanted: sought.text },
+            { signal },
+          )
         : Promise.resolve(null),
     [JSON.stringify([ready, sought, rest])],
     150,
@@ -95,7 +99,9 @@ function Work({ page, card, given }) {
   const results = card.outputs?.filter((p) => p.kind && !p.series) ?? [];
   const seek = (p) => {
     const first = sought?.output || results[0].name;
-    setSought(sought?.name === p.name ? null : { name: p.name, output: first, text: written(answer.data, first) });
+    setSought(
+      sought?.name === p.name ? null : { name: p.name, output: first, text: written(answer.data, first) },
+    );
   };
   const seekable = (p) =>
     kind === 'calc' && results.length > 0 && p.kind && !p.series && !p.options?.length && p.sort !== 'int';
@@ -164,7 +170,9 @@ function Work({ page, card, given }) {
 /** A result as a field takes it, to start from. */
 function written(data, name) {
   const unit = data?.shown.find((row) => row.name === name)?.units[0];
-  return unit ? joined({ number: unit.full.replace(',', '.'), unit: unit.unit === 'dimensionless' ? '' : unit.unit }) : '';
+  return unit
+    ? joined({ number: unit.full.replace(',', '.'), unit: unit.unit === 'dimensionless' ? '' : unit.unit })
+    : '';
 }
 
 /** The wanted result, typed where the result stands; the input is found. */

@@ -101,8 +101,12 @@ export function apply() {
   dispatchEvent(new Event('granum-theme'));
 }
 
+/** The colon of the language: French puts a no-break space before it. */
+export const colon = () => (settings.language === 'fr' ? '\u00a0:' : ':');
+
 export function t(text, values = {}) {
-  const found = settings.language === 'fr' ? french[text]?.replaceAll("'", '’') || text : english[text] || text;
+  const found =
+    settings.language === 'fr' ? french[text]?.replaceAll("'", '’') || text : english[text] || text;
   return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
 }
 

@@ -1,5 +1,5 @@
 // Forms of a line: its substances, feeds, equipment and design specifications.
-import { html, t, useState, useEffect } from './core.js';
+import { colon, html, t, useState, useEffect } from './core.js';
 import { Field } from './form.js';
 import { Quantity } from './quantity.js';
 import { Choice, useSubstances, named } from './line_new.js';
@@ -93,7 +93,7 @@ export function Specifications({ form, build }) {
       .filter((p) => p.kind && !p.series && unit.values[p.name] !== undefined)
       .map((p) => ({
         value: `${name}.${p.name}`,
-        label: `${pretty(name)}: ${p.label}`,
+        label: `${pretty(name)}${colon()} ${p.label}`,
         p,
         now: unit.values[p.name],
       })),
@@ -101,7 +101,7 @@ export function Specifications({ form, build }) {
   const figures = Object.entries(form.units).flatMap(([name, unit]) =>
     (unit.figures || []).map((p) => ({
       value: `${name}.${p.name}`,
-      label: `${pretty(name)}: ${p.label}`,
+      label: `${pretty(name)}${colon()} ${p.label}`,
       p,
     })),
   );

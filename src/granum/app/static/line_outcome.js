@@ -1,5 +1,5 @@
 // What a solved line gives: findings first, then streams, then every figure of the equipment; cases side by side.
-import { html, t } from './core.js';
+import { colon, html, t } from './core.js';
 import { StreamTable } from './line_streams.js';
 import { pretty } from './line_forms.js';
 import { Utilities } from './utilities.js';
@@ -15,9 +15,9 @@ export function Outcome({ data, cases, clear, choose, place, text, compared, lab
   );
   return html`<p class="ok">● ${data.audit.text}</p>
     <section class="card findings" aria-label=${t('Findings')}><h2 class="first">${t('Findings')}</h2>
-    ${failed.map(([name, c]) => html`<p class="out">✗ <strong>${pretty(name)}</strong>: ${c.name} ${c.text} <span class="dim">(${c.allowed})</span></p>`)}
+    ${failed.map(([name, c]) => html`<p class="out">✗ <strong>${pretty(name)}</strong>${colon()} ${c.name} ${c.text} <span class="dim">(${c.allowed})</span></p>`)}
     ${kept > 0 && html`<p class="ok">✓ ${failed.length ? t('{count} other limits are kept.', { count: kept }) : t('All {count} practical limits are kept.', { count: kept })}</p>`}
-    ${data.found.map((row) => html`<p>${t('found')}: <strong>${pretty(row.unit)}</strong>, ${row.label} = ${row.text}</p>`)}
+    ${data.found.map((row) => html`<p>${t('found')}${colon()} <strong>${pretty(row.unit)}</strong>, ${row.label} = ${row.text}</p>`)}
     ${found.length > 0 && html`<div class="wide" tabindex="0" role="region" aria-label=${t('Sizes and duties')}><table><tbody>${found.map(([name, key, row], i) => html`<tr data-finding=${name + '.' + key}><th scope="row">${i && found[i - 1][0] === name ? '' : pretty(name)}</th><td>${row.label}</td><td class="n"><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>`}
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${pretty(flag.unit || '')}</strong> ${flag.message}</p>`)}</section>
     ${compared && html`<${Comparison} cases=${cases} clear=${clear} />`}
@@ -46,7 +46,7 @@ function Comparison({ cases, clear }) {
           put(
             inputs,
             `${sort}.${name}.${p.name}`,
-            `${pretty(name)}: ${p.label}`,
+            `${pretty(name)}${colon()} ${p.label}`,
             i,
             item.values[p.name] ?? '—',
           );
@@ -54,7 +54,7 @@ function Comparison({ cases, clear }) {
     }
     for (const [name, unit] of Object.entries(c.units))
       for (const [key, row] of Object.entries(unit.results))
-        put(figures, `${name}.${key}`, `${pretty(name)}: ${row.label}`, i, row.text);
+        put(figures, `${name}.${key}`, `${pretty(name)}${colon()} ${row.label}`, i, row.text);
   });
   const differ = ([, row]) => cases.some((_, i) => row.values[i] !== row.values[0]);
   const body = (rows, strong) =>

@@ -1,5 +1,5 @@
 // The flow diagram as something to work on: zoom, pan, choose, put equipment at an open end, drag an open end to an inlet.
-import { html, t, useState, useEffect, useRef } from './core.js';
+import { colon, html, t, useState, useEffect, useRef } from './core.js';
 
 const SMALLEST = 0.5;
 const LARGEST = 3;
@@ -38,7 +38,7 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
       g.dataset.phase = stream && !old ? stream.phase : '';
       g.classList.toggle('empty', Boolean(stream?.empty && !old));
       const name = g.dataset.stream.replaceAll('_', ' ');
-      g.querySelector('title').textContent = stream && !old ? `${name}: ${stream.tip}` : name;
+      g.querySelector('title').textContent = stream && !old ? `${name}${colon()} ${stream.tip}` : name;
     }
     for (const g of sheet.current.querySelectorAll('[data-unit],[data-stream]'))
       g.classList.toggle('chosen', (g.dataset.unit ?? g.dataset.stream) === chosen.name);

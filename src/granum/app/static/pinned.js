@@ -1,5 +1,5 @@
 // On a narrow screen the first result stays in sight while one types above it; and results are spoken when they change.
-import { settings } from './core.js';
+import { colon } from './core.js';
 
 const NARROW = matchMedia('(max-width: 62rem)');
 const QUIET = 1200; // ms without a change after which a result is spoken
@@ -32,12 +32,11 @@ function speak(text) {
 function look() {
   const result = document.querySelector(RESULT);
   const stale = Boolean(result?.closest('.stale'));
-  const colon = settings.language === 'fr' ? ' :' : ':';
   const label = result ? labelOf(result) : '';
   const value = result?.textContent.trim() ?? '';
   if (result && !stale) {
     const doubt = document.querySelector('#main [data-belief=caution] .mark')?.textContent ?? '';
-    speak(`${label}${label && colon} ${value} ${doubt}`.trim());
+    speak(`${label}${label && colon()} ${value} ${doubt}`.trim());
   }
   const below = result && result.getBoundingClientRect().top > innerHeight - 20;
   bar.hidden = !(NARROW.matches && below && document.querySelector('#main form'));

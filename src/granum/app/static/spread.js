@@ -1,5 +1,5 @@
 // How far other accepted laws differ for the same inputs; asked for, since each law may have to be traced first. Open, it follows the inputs.
-import { html, t, ask, link, settings, useAnswer, useState, Working } from './core.js';
+import { colon, html, t, ask, link, settings, useAnswer, useState, Working } from './core.js';
 
 export function Spread({ card, values, choose, open, setOpen }) {
   const { data, error, pending, cancel, job } = useAnswer(
@@ -25,11 +25,12 @@ const apartText = (rows) => {
 function Strip({ rows, summary, old }) {
   const agreed = rows.filter((row) => !row.apart).map((row) => row.value);
   const [low, high] = [agreed[0], agreed.at(-1)];
-  const place = (value) => (high > low ? 6 + 88 * Math.min(Math.max((value - low) / (high - low), -0.06), 1.06) : 50);
+  const place = (value) =>
+    high > low ? 6 + 88 * Math.min(Math.max((value - low) / (high - low), -0.06), 1.06) : 50;
   return html`<div class=${old ? 'stale' : ''}><p data-summary class="strip-words">${summary.sentence}. ${apartText(rows)}</p>
     <div class="strip" role="img" aria-label=${summary.sentence}><span class="median" style=${{ left: `${place(summary.median)}%` }}></span>${rows.map(
       (row) =>
-        html`<span class=${`dot${row.own ? ' own' : ''}${row.apart ? ' apart' : ''}${row.notices.length ? ' flagged' : ''}`} style=${{ left: `${place(row.value)}%` }} title=${`${row.label}: ${row.text}`}></span>`,
+        html`<span class=${`dot${row.own ? ' own' : ''}${row.apart ? ' apart' : ''}${row.notices.length ? ' flagged' : ''}`} style=${{ left: `${place(row.value)}%` }} title=${`${row.label}${colon()} ${row.text}`}></span>`,
     )}</div></div>`;
 }
 

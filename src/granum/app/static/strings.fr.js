@@ -351,7 +351,8 @@ export const french = {
   'flows of solid and liquid': 'débits de solide et de liquide',
   'whole flow and share of solids': 'débit total et fraction de solides',
   'in use: a divider or mixer is put in': 'déjà pris : un diviseur ou un mélangeur est intercalé',
-  'Liquids: solvent first, then what is dissolved in it': 'Liquides : le solvant d’abord, puis ce qui y est dissous',
+  'Liquids: solvent first, then what is dissolved in it':
+    'Liquides : le solvant d’abord, puis ce qui y est dissous',
   'Solids': 'Solides',
   'Gases and vapors': 'Gaz et vapeurs',
   'Substances': 'Substances',
@@ -375,7 +376,8 @@ export const french = {
   'title': 'titre',
   'Salt from brine': 'Sel de saumure',
   'What enters': 'Ce qui entre',
-  'Amounts, temperature and sizes start from ordinary values; change them afterwards.': 'Quantités, température et tailles partent de valeurs ordinaires ; changez-les ensuite.',
+  'Amounts, temperature and sizes start from ordinary values; change them afterwards.':
+    'Quantités, température et tailles partent de valeurs ordinaires ; changez-les ensuite.',
   'Create the line': 'Créer la ligne',
   'Add equipment': 'Ajouter un appareil',
   'Equipment for {origin}': 'Appareil pour {origin}',
@@ -402,16 +404,21 @@ export const french = {
   'Redo': 'Rétablir',
   'Add a feed': 'Ajouter une alimentation',
   'Start a new line': 'Commencer une ligne',
-  'Choose what enters, put equipment behind it, and see it solved after each step.': 'Choisissez ce qui entre, mettez des appareils derrière, et voyez la ligne résolue à chaque étape.',
-  'Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.': 'Choisissez un appareil ou un courant ; + met un appareil à un bout libre ; tirez un + jusqu’à une entrée pour les relier.',
+  'Choose what enters, put equipment behind it, and see it solved after each step.':
+    'Choisissez ce qui entre, mettez des appareils derrière, et voyez la ligne résolue à chaque étape.',
+  'Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.':
+    'Choisissez un appareil ou un courant ; + met un appareil à un bout libre ; tirez un + jusqu’à une entrée pour les relier.',
   'Use in the line': 'Utiliser dans la ligne',
   'equipment': 'appareil',
-  'Open a line under Lines first: its equipment then takes what was fitted here.': 'Ouvrez d’abord une ligne sous Lignes : ses appareils prennent alors ce qui a été ajusté ici.',
-  'No equipment of {line} takes what this test gives.': 'Aucun appareil de {line} ne prend ce que donne cet essai.',
+  'Open a line under Lines first: its equipment then takes what was fitted here.':
+    'Ouvrez d’abord une ligne sous Lignes : ses appareils prennent alors ce qui a été ajusté ici.',
+  'No equipment of {line} takes what this test gives.':
+    'Aucun appareil de {line} ne prend ce que donne cet essai.',
   'Used in {line}.': 'Utilisé dans {line}.',
   'Open the line': 'Ouvrir la ligne',
   'line': 'ligne',
-  'Data and conditions go into the line with it, and the uncertainty stays known.': 'Les données et les conditions entrent avec lui dans la ligne, et l’incertitude reste connue.',
+  'Data and conditions go into the line with it, and the uncertainty stays known.':
+    'Les données et les conditions entrent avec lui dans la ligne, et l’incertitude reste connue.',
   'Feeds': 'Alimentations',
   'Units': 'Unités',
   'No parameters.': 'Aucun paramètre.',

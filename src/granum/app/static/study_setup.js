@@ -1,5 +1,5 @@
 // What a study is asked: its kinds, its rows as they are typed, the table for the server, and the question in words.
-import { t, settings } from './core.js';
+import { colon, t } from './core.js';
 import { inLanguage, joined, split } from './quantity.js';
 
 export const KINDS = [
@@ -153,7 +153,6 @@ export function table(setup) {
   return { kind, outputs: watched, samples: whole(samples), uncertain, ...limits };
 }
 
-const colon = () => (settings.language === 'fr' ? ' :' : ':');
 const listed = (texts) =>
   texts.length < 2 ? texts.join('') : `${texts.slice(0, -1).join(', ')} ${t('and')} ${texts.at(-1)}`;
 
