@@ -12,6 +12,7 @@ from granum import cyclones as cyclones
 from granum import drying as drying
 from granum import dust as dust
 from granum import estimation as estimation
+from granum import evaporation as evaporation
 from granum import filtration as filtration
 from granum import flowsheet as flowsheet
 from granum import fluidization as fluidization

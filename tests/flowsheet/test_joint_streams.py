@@ -253,6 +253,33 @@ OTHERS = {
         "vapor_resistance_slope": "16 cm*hour*torr/g",
     },
 }
+# small, for a feed of one kilogram of liquor a second
+BOILING = {"elevation_linear": 5.0, "elevation_quadratic": 20.0}
+EVAPORATORS = {
+    "evaporation.evaporator": BOILING
+    | {
+        "area": 2.0,
+        "pressure": "0.5 bar",
+        "pressure_steam": "1.5 bar",
+        "heat_transfer_coefficient": 2000.0,
+    },
+    "evaporation.multiple_effect_evaporator": BOILING
+    | {
+        "area": 1.0,
+        "pressure": "0.1 bar",
+        "pressure_steam": "3 bar",
+        "effect_count": 2,
+        "heat_transfer_coefficient_first": 2500.0,
+        "heat_transfer_coefficient_last": 1200.0,
+    },
+    "evaporation.recompression_evaporator": BOILING
+    | {
+        "area": 10.0,
+        "pressure": "0.3 bar",
+        "pressure_steam": "0.8 bar",
+        "heat_transfer_coefficient": 2500.0,
+    },
+}
 AS_ALONE = (  # with the values with which they open by themselves
     "centrifuges.disc_purifier",
     "centrifuges.disc_separator",
@@ -268,7 +295,9 @@ AS_ALONE = (  # with the values with which they open by themselves
     "streams.fan",
     "streams.pump",
 )
-ALL = SLURRY | WASHED | POWDER | GAS | LIQUOR | OTHERS | {key: ordinary(key) for key in AS_ALONE}
+ALL = (
+    SLURRY | WASHED | POWDER | GAS | LIQUOR | EVAPORATORS | OTHERS | {key: ordinary(key) for key in AS_ALONE}
+)
 
 
 @cache
@@ -328,7 +357,7 @@ SPECIAL = {
 def inlets(key: str, unit: Unit) -> dict[str, Stream]:
     """Streams for the ports of a unit."""
     have = feeds(("water",) if key.startswith("drying") else ("water", "potassium nitrate"))
-    main = "slurry" if key in SLURRY or key in WASHED else "liquor" if key in LIQUOR else "cake"
+    main = "slurry" if key in SLURRY or key in WASHED else "liquor" if key in LIQUOR | EVAPORATORS else "cake"
     ports = SPECIAL.get(key) or {"feed": main, "wash": "wash", "gas": "air"}
     return {name: have[ports[name]] for name in unit.inlet_names() or ports if name in ports}
 

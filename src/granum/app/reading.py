@@ -18,7 +18,8 @@ from granum.reports.stated import with_equations, with_numbers
 
 _HEADING = re.compile(r"^#+\s+(.+)$", re.MULTILINE)
 _FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
-_MADE = re.compile(r"^\[\[(\w+)[^\]\n]*\]\]\s*$", re.MULTILINE)  # plots and tables that the site makes
+# plots and tables that the site makes, a plot with its caption
+_MADE = re.compile(r"^\[\[(?:figure[^\]\n]*\]\]\s*\n\*[^*\n]+\*|\w+[^\]\n]*\]\])\s*$", re.MULTILINE)
 _CARD = re.compile(r"\[\[card (\S+)\]\]")
 _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 

@@ -28,7 +28,7 @@ from granum.app.jobs import Broken, GivenUp, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
 from granum.app.reading import as_html
 from granum.app.sending import Shorter, kept, lasting
-from granum.app.shipped import examples, examples_folder, title_of
+from granum.app.shipped import domain_of_line, examples, examples_folder, title_of
 from granum.app.tasks import TASKS, calculate, packed
 from granum.app.telling import Tell
 from granum.app.wording import told
@@ -444,6 +444,7 @@ def _files(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
             {
                 "files": sorted(examples()),
                 "titles": {name: title_of(name) for name in examples()},
+                "domains": {name: domain_of_line(name) for name in examples()},
             }
         )
 

@@ -36,6 +36,13 @@ def _told(name: str) -> tuple[str, str]:
     return str(raw.get("title", "")), str(raw.get("description", ""))
 
 
+def domain_of_line(name: str) -> str:
+    """The domain of all machines of an example, mixers and splitters aside; empty where there are several."""
+    units = tomllib.loads(examples()[name].read_text(encoding="utf-8"))["units"].values()
+    found = {str(unit.get("model", "")).partition(".")[0] for unit in units} - {"streams"}
+    return found.pop() if len(found) == 1 else ""
+
+
 def title_of(name: str) -> str:
     """The title of an example in the current language."""
     return _(_told(name)[0])

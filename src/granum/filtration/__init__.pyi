@@ -31,10 +31,10 @@ from granum.filtration.equipment.continuous import (
     VacuumFilter as VacuumFilter,
 )
 from granum.filtration.equipment.deep_bed import (
-    Cycle as Cycle,
     DeepBedFigures as DeepBedFigures,
     DeepBedFilter as DeepBedFilter,
     DeepBedOutlets as DeepBedOutlets,
+    FilterRun as FilterRun,
 )
 from granum.filtration.formulas.backwash import (
     backwash_velocity as backwash_velocity,
@@ -62,6 +62,7 @@ from granum.filtration.formulas.constant_rate import (
     pressure_drop_constant_rate_compressible as pressure_drop_constant_rate_compressible,
 )
 from granum.filtration.formulas.cycle import (
+    Cycle as Cycle,
     filtrate_flow_drum as filtrate_flow_drum,
     filtrate_volume_optimum as filtrate_volume_optimum,
     filtration_cycle as filtration_cycle,

@@ -64,7 +64,7 @@ def drag_chart(
     >>> drawing = drag_chart(
     ...     particle_diameter=85e-6, particle_density=2650.0, fluid_density=998.2, dynamic_viscosity=1.0016e-3
     ... )
-    >>> drawing.data[-1].name
+    >>> drawing.layout.annotations[-1].text
     'Re = 0.5027, C<sub>D</sub> = 52.23'
     """
     from granum.core.charts import (
@@ -127,7 +127,7 @@ def drag_chart(
             )
             text = f"Re = {format_number(at)}, C<sub>D</sub> = {format_number(drawn)}"
             add_points(drawing, [at], [drawn], text, color=INK)
-            drawing.data[-1].marker.size = 11
+            drawing.data[-1].update(marker_size=11, showlegend=False)
             add_label(drawing, at * 1.3, drawn * 2.5, text, color=INK, xanchor="left")
     drawing.update_yaxes(range=[-1.3, 4.5])
     drawing.update_layout(legend={"x": 0.98, "xanchor": "right", "y": 0.98}, height=560)

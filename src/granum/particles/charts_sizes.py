@@ -12,7 +12,7 @@ from granum.core import chart
 from granum.core.charts import ACCENT, SOLID, add_line, add_points, axis_title, figure
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Distance, Fraction, Law, Length, Series
-from granum.core.units import best_unit, from_si
+from granum.core.units import best_unit, format_number, from_si
 from granum.particles.class_means import Edges, Fractions, Rule
 from granum.particles.distributions import Basis, SizeDistribution
 from granum.particles.in_class import UniformDensity
@@ -144,7 +144,8 @@ def _paper(sizes: Any, below: Any, size_law: Any, transform: Any, title: str) ->
         inside = (value > 5e-4) & (value < 0.9995)
         add_line(drawing, _shown(grid[inside], unit), transform(value[inside]), _("law"))
     drawing.update_yaxes(
-        tickvals=[float(transform(np.array(t))) for t in _TICKS], ticktext=[f"{100 * t:g}" for t in _TICKS]
+        tickvals=[float(transform(np.array(t))) for t in _TICKS],
+        ticktext=[format_number(100.0 * t) for t in _TICKS],
     )
     return drawing
 

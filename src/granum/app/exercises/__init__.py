@@ -13,7 +13,7 @@ from typing import Any
 from granum.app.exercises.numbers import Numbers, filled_text
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
-from granum.core.i18n import _, current_language
+from granum.core.i18n import _, current_language, typographic
 from granum.core.units import format_number, pretty_unit
 from granum.reports.mathml import mathml
 
@@ -66,7 +66,8 @@ def in_language(value: Any) -> Any:
     """Every ``{en, fr}`` pair replaced by its text in the current language."""
     if isinstance(value, dict):
         if set(value) == {"en", "fr"}:
-            return value[current_language()]
+            text = value[current_language()]
+            return typographic(text) if current_language() == "fr" and isinstance(text, str) else text
         return {name: in_language(item) for name, item in value.items()}
     return [in_language(item) for item in value] if isinstance(value, list) else value
 

@@ -114,7 +114,7 @@ function Test({ card, given }) {
         setOver(false);
         take(e.dataTransfer.files);
       }}>
-        <label>${t('Drop a CSV or Excel file here, or choose one:')} <input type="file" accept=".csv,.tsv,.txt,.xlsx" onChange=${(e) => take(e.target.files)} /></label>
+        <p>${t('Drop a CSV or Excel file here, or choose one:')}</p><label class="button">${t('Choose a file')}<input class="hidden" type="file" accept=".csv,.tsv,.txt,.xlsx" onChange=${(e) => take(e.target.files)} /></label>
         <div role="status">${told}</div></div>
       ${card.trial && html`<div class="row"><button class="button" onClick=${tryIt}>${t('Try with example data')}</button>${trial && html` <span class="caution" role="status" data-trial>▲ ${t('Example: data and conditions of {name}', { name: trial.name })}</span>`}</div>`}
       <h2><label for="table">${t('or paste the table')}</label></h2>

@@ -15,6 +15,7 @@ import {
   settings,
   Working,
 } from './core.js';
+import { order } from './cards.js';
 import { caseAt, drafted, keepDraft, packed } from './drafts.js';
 import { Editor } from './line_editor.js';
 import { Forms, Specifications, Substances } from './line_forms.js';
@@ -43,6 +44,12 @@ function freePlace(title) {
     if (drafted(place) === null) return place;
   }
 }
+
+/** The examples by domain, lines of several operations first, then in the order of the house. */
+const byDomain = (list) =>
+  ['', ...order]
+    .map((domain) => [domain, (list?.shipped || []).filter((f) => list.domains[f] === domain)])
+    .filter(([, files]) => files.length);
 
 export function Lines({ state }) {
   const [list, setList] = useState(null);
@@ -75,7 +82,7 @@ export function Lines({ state }) {
   const written = useRef(Promise.resolve());
   const files = () =>
     Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) =>
-      setList({ own: own.files, shipped: shipped.files, titles: shipped.titles }),
+      setList({ own: own.files, shipped: shipped.files, titles: shipped.titles, domains: shipped.domains }),
     );
   useEffect(() => {
     files();
@@ -385,7 +392,7 @@ export function Lines({ state }) {
       !text &&
       !making &&
       html`<h2 class="first">${t('Start a new line')}</h2><p>${t('Choose what enters, put equipment behind it, and see it solved after each step.')}</p><button class="button main" onClick=${() => setMaking(true)}>${t('New line')}</button>
-    <h2>${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`
+    <h2>${t('Start from an example')}</h2>${byDomain(list).map(([domain, files]) => html`<h3>${domain ? t(domain) : t('Several operations')}</h3><div class="columns">${files.map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}</button>`)}</div>`)}`
     }
     ${
       form &&

@@ -6,15 +6,31 @@ ask('/api/version').then((found) => {
   version = found.version;
 });
 
+/** What the page shows: the line or the card, not the part of the program. */
+const heading = () =>
+  document.querySelector('main h2.title')?.textContent || document.querySelector('main h1')?.textContent || '';
+
 function Printed() {
   const [, again] = useState(0);
   useEffect(() => {
-    const now = () => again((count) => count + 1);
-    addEventListener('beforeprint', now);
-    return () => removeEventListener('beforeprint', now);
+    let kept = '';
+    const before = () => {
+      kept = document.title;
+      document.title = `${heading()} · Granum`; // the name of the file that is printed to
+      again((count) => count + 1);
+    };
+    const after = () => {
+      document.title = kept;
+    };
+    addEventListener('beforeprint', before);
+    addEventListener('afterprint', after);
+    return () => {
+      removeEventListener('beforeprint', before);
+      removeEventListener('afterprint', after);
+    };
   }, []);
   const when = new Intl.DateTimeFormat(settings.language, { dateStyle: 'long', timeStyle: 'short' });
-  return html`<p class="printed">Granum ${version} · ${document.title.replace(' · Granum', '')} · ${when.format(Date.now())}<br />${t('The same page again:')} ${location.href}</p>`;
+  return html`<p class="printed">Granum ${version} · ${heading()} · ${when.format(Date.now())}<br />${t('The same page again:')} ${location.href}</p>`;
 }
 
 const foot = document.createElement('footer');

@@ -57,7 +57,7 @@ export const french = {
   'Put it in a line': 'Mettre dans une ligne',
   'Results': 'Résultats',
   'within its practical limits': 'dans ses limites pratiques',
-  'How fast does it settle?': 'À quelle vitesse cela décante-t-il ?',
+  'How fast does it settle?': 'À quelle vitesse cela décante‑t‑il ?',
   'Terminal velocity of a particle in a fluid': 'Vitesse limite de chute d’une particule dans un fluide',
   'Size a thickener from a jar test': 'Dimensionner un épaississeur d’après un essai en éprouvette',
   'Settling curve to area': 'De la courbe de décantation à la surface',
@@ -76,7 +76,7 @@ export const french = {
   'Cyclones for a dust': 'Des cyclones pour une poussière',
   'Diameter and number for a cut and a pressure drop':
     'Diamètre et nombre pour une coupure et une perte de charge',
-  'When does a bed fluidize?': 'Quand un lit se fluidise-t-il ?',
+  'When does a bed fluidize?': 'Quand un lit se fluidise‑t‑il ?',
   'Minimum fluidization by every correlation': 'Minimum de fluidisation par toutes les corrélations',
   'Crystals from a cooling batch': 'Des cristaux par refroidissement discontinu',
   'Size and yield, seeded or not': 'Taille et rendement, avec ou sans semences',
@@ -134,6 +134,8 @@ export const french = {
   'with': 'avec',
   'Source': 'Source',
   'About': 'À propos',
+  'Choose a file': 'Choisir un fichier',
+  'Several operations': 'Plusieurs opérations',
   'Drop a CSV or Excel file here, or choose one:':
     'Déposez ici un fichier CSV ou Excel, ou choisissez-en un :',
   'Remove': 'Retirer',
@@ -449,6 +451,7 @@ export const french = {
   'crystallization': 'Cristallisation',
   'drying': 'Séchage',
   'dust': 'Dépoussiérage',
+  'evaporation': 'Évaporation',
   'studies': 'Études',
   'costs': 'Coûts',
 };
@@ -469,6 +472,7 @@ export const english = {
   crystallization: 'Crystallization',
   drying: 'Drying',
   dust: 'Dust collection',
+  evaporation: 'Evaporation',
   studies: 'Studies',
   costs: 'Costs',
 };

@@ -31,8 +31,8 @@ from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
 from granum.streams.formulas.drives import shaft_power_adiabatic
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
-from granum.streams.utilities import DRIVE, HEAT_APPROACH, HEATED, driven, heated
+from granum.streams.units import Limits, Unit, Utilities, Utility
+from granum.streams.utilities import HEAT_APPROACH, HEATED, driven, heated
 
 STEAM_RATIO = 1.3  # of the heat capacities of low-pressure steam
 COLD_CHEST = (
@@ -219,7 +219,7 @@ class RecompressionEvaporator(_Single):
     limits: ClassVar[Limits] = Heating.limits | {
         "compression": Limit("pressure ratio of one stage", 1.0, 2.0, "dimensionless", "perry2008, § 11")
     }
-    utilities: ClassVar[Utilities] = HEATED | DRIVE
+    utilities: ClassVar[Utilities] = HEATED | {"electric_power_compressor": Utility("mujumdar2014")}
 
     def inside(self, feed: Stream) -> tuple[Liquor, Effect, Any, Recompressed]:
         liquor, made, chest = self.effect(feed)
@@ -275,5 +275,5 @@ class RecompressionEvaporator(_Single):
         figures: EvaporatorFigures,
         feed: Stream,
     ) -> dict[str, Any]:
-        drive = {"electric_power_drive": driven(outlets.shaft_power)}
+        drive = {"electric_power_compressor": driven(outlets.shaft_power)}
         return heated(outlets.heat_duty, inside[2] - HEAT_APPROACH) | drive

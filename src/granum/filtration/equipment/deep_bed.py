@@ -56,7 +56,7 @@ class DeepBedFigures(NamedTuple):
     wash_water_share: Fraction
 
 
-class Cycle(NamedTuple):
+class FilterRun(NamedTuple):
     """Share caught of each species and class, clean head loss, run time, backwash velocity, share of the
     filtrate that the backwash takes.
     """
@@ -133,7 +133,7 @@ class DeepBedFilter(Unit):
         )
         return -jnp.expm1(-coefficient * self.bed_depth)
 
-    def inside(self, feed: Stream) -> Cycle:
+    def inside(self, feed: Stream) -> FilterRun:
         U = self._velocity(feed)
         clean = head_loss_clean_bed(
             self.bed_depth,
@@ -159,28 +159,28 @@ class DeepBedFilter(Unit):
             self.void_fraction,
         )
         water = jnp.minimum(safe_divide(wash * self.backwash_time, U * (run + self.backwash_time)), 0.999)
-        return Cycle(share, clean, run, wash, water)
+        return FilterRun(share, clean, run, wash, water)
 
-    def outlets(self, inside: Cycle, feed: Stream) -> DeepBedOutlets:
+    def outlets(self, inside: FilterRun, feed: Stream) -> DeepBedOutlets:
         washings = feed.part(solid=inside.caught, liquid=inside.water)
         return DeepBedOutlets(
             feed.replace(solid=feed.solid - washings.solid, liquid=feed.liquid - washings.liquid), washings
         )
 
-    def figures(self, inside: Cycle, outlets: DeepBedOutlets, feed: Stream) -> DeepBedFigures:
+    def figures(self, inside: FilterRun, outlets: DeepBedOutlets, feed: Stream) -> DeepBedFigures:
         removed = safe_divide(outlets.washings.solid_flow, feed.solid_flow)
         return DeepBedFigures(
             self._velocity(feed), removed, inside.clean, inside.run, inside.wash, inside.water
         )
 
     def measured(
-        self, inside: Cycle, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream
+        self, inside: FilterRun, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream
     ) -> dict[str, Any]:
         rate, run = HOUR * figures.superficial_velocity, inside.run / HOUR
         return {"rate": rate, "run": run, "wash": inside.water, "thin": feed.solids_volume_fraction}
 
     def drawn(
-        self, inside: Cycle, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream
+        self, inside: FilterRun, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream
     ) -> dict[str, Any]:
         weight, light = STANDARD_GRAVITY * feed.liquid_density, feed.liquid_density
         head = 0.5 * (inside.clean + jnp.maximum(self.head_loss_allowed, inside.clean))
