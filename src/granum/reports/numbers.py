@@ -1,237 +1,287 @@
 """An equation with the numbers of a calculation in the place of its symbols.
 
 It is shown only where reading it gives the result: an equation whose symbols are other ones, that stands for
-other units or that is one of several has none.
+other units or that is one of several has none. What is defined after an equation follows with its own
+numbers.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
-from functools import cache
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
+from granum.core import constants
 from granum.core.parameters import Parameter
 from granum.core.results import Result
 from granum.core.units import format_number, pretty_unit
+from granum.reports.equations import (
+    FRACTIONS,
+    SPACES,
+    Reader,
+    UnreadError,
+    cut,
+    function_name,
+    is_symbol,
+    statements,
+)
 from granum.reports.quantities import beside_rows, value_text
 
-LONG = 220  # characters of an equation that is still read better with its numbers
+LONG = 220  # characters of a side that is still read better with its numbers
 AGREES = 1e-6
-_FUNCTIONS: dict[str, Callable[[float], float]] = {
-    "ln": math.log,
-    "log": math.log10,
-    "exp": math.exp,
-    "sin": math.sin,
-    "cos": math.cos,
-    "tan": math.tan,
-    "tanh": math.tanh,
-    "arctan": math.atan,
-    "arcsin": math.asin,
-    "arccos": math.acos,
+_UNREAD = (ValueError, ArithmeticError, IndexError, TypeError, KeyError)  # TypeError: a complex number
+_CONSTANTS = {
+    "g": (constants.STANDARD_GRAVITY, "m/s^2"),
+    "R": (constants.GAS_CONSTANT, "J/(mol*K)"),
+    "k": (constants.BOLTZMANN, "J/K"),
+    "N_A": (constants.AVOGADRO, "1/mol"),
+    r"\sigma": (constants.STEFAN_BOLTZMANN, "W/(m^2*K^4)"),
+    r"\varepsilon_0": (constants.VACUUM_PERMITTIVITY, "A*s/(V*m)"),
 }
-_SPACES = (r"\,", r"\ ", r"\!", r"\;", r"\left", r"\right", " ")
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|.", re.DOTALL)
-_CLOSES = {"(": ")", "[": "]", "{": "}", "|": "|"}
-Symbols = Mapping[str, tuple[float, str]]
+_CHARGE = {"e": (constants.ELEMENTARY_CHARGE, "A*s")}  # where e is not the number
+
+
+@dataclass(frozen=True)
+class _Meaning:
+    """A number with its unit in SI, and what is written for it."""
+
+    value: float
+    unit: str
+    text: str
+
+
+class _Meanings(Mapping[str, _Meaning]):
+    """What the symbols of an equation stand for; one that the equation defines is worked out when it is asked
+    for, and ``used`` then tells how, in the order of use.
+    """
+
+    def __init__(self, given: Mapping[str, _Meaning], definitions: Mapping[str, list[str]]):
+        self._given = dict(given)
+        self._definitions = definitions
+        self._open: set[str] = set()
+        self.used: dict[str, str] = {}
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(dict.fromkeys((*self._given, *self._definitions)))
+
+    def __len__(self) -> int:
+        return len(set(self._given) | set(self._definitions))
+
+    def __contains__(self, symbol: object) -> bool:
+        return symbol in self._given or symbol in self._definitions
+
+    def __getitem__(self, symbol: str) -> _Meaning:
+        if symbol not in self._given:
+            self._given[symbol] = self._defined(symbol)
+        return self._given[symbol]
+
+    def _defined(self, symbol: str) -> _Meaning:
+        if symbol in self._open:
+            raise UnreadError
+        self._open.add(symbol)
+        self.used[symbol] = ""  # in its place before those it needs
+        value, parts = _worked_out(self._definitions[symbol][0], self)
+        unit = _unit_of(parts, self)
+        text = f"{format_number(value)} {pretty_unit(unit)}".strip()
+        self.used[symbol] = rf"{symbol} = {_written(parts, self)} = \text{{{text}}}"
+        return _Meaning(value, unit, text)
+
+
+class _Values(Mapping[str, float]):
+    """The numbers of meanings."""
+
+    def __init__(self, meanings: Mapping[str, _Meaning]):
+        self._meanings = meanings
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._meanings)
+
+    def __len__(self) -> int:
+        return len(self._meanings)
+
+    def __contains__(self, symbol: object) -> bool:
+        return symbol in self._meanings
+
+    def __getitem__(self, symbol: str) -> float:
+        return self._meanings[symbol].value
+
+
+def _worked_out(side: str, meanings: Mapping[str, _Meaning]) -> tuple[float, list[str]]:
+    """The value of a side, and the side cut."""
+    if len(side) > LONG:
+        raise UnreadError
+    parts = cut(side, meanings)
+    return float(Reader(parts, _Values(meanings)).whole()), parts
+
+
+def _unit_of(parts: list[str], meanings: Mapping[str, _Meaning]) -> str:
+    """The unit in SI of what a side gives."""
+    there = [part for part in dict.fromkeys(parts) if part in meanings]
+    if not any(meanings[part].unit for part in there):
+        return ""
+    from granum.core.unit_names import registry  # Pint takes a third of a second to load
+
+    ureg = registry()
+    quantities = {part: ureg.Quantity(meanings[part].value, meanings[part].unit) for part in there}
+    found = ureg.Quantity(Reader(parts, quantities).whole()).to_base_units()
+    powers = {f"{ureg.Unit(name):~}": n for name, n in found.unit_items() if name != "radian"}
+    return _unit_text({name: round(n, 9) for name, n in powers.items() if abs(n) > 1e-9})
+
+
+def _unit_text(powers: Mapping[str, float]) -> str:
+    def product(sign: int) -> list[str]:
+        return [
+            name if n * sign == 1 else f"{name}^{n * sign:g}" for name, n in powers.items() if n * sign > 0
+        ]
+
+    above, below = product(1), product(-1)
+    if not below:
+        return "*".join(above)
+    under = "*".join(below)
+    return f"{'*'.join(above) or '1'}/{f'({under})' if len(below) > 1 else under}"
 
 
 def numbered(result: Result) -> str:
     """LaTeX of a card's equation with its numbers in SI units and its result; empty where that is not what
     the equation gives.
     """
-    left, equals, right = result.card.equation.partition("=")
+    said = statements(result.card.equation)
     output = result.card.outputs[0]
     value = result.outputs[output.name]
-    if not equals or len(right) > LONG or output.kind is None or np.ndim(value) or value is None:
+    if output.kind is None or value is None or np.ndim(value):
         return ""
-    symbols = dict(_known(result))
-    parts = _parts(right, symbols)
-    try:
-        found = _Reader(parts, symbols).whole()
-    except (ValueError, ArithmeticError, IndexError):
-        return ""
-    named = any(part in symbols for part in parts)
-    if not named or not math.isclose(found, float(value), rel_tol=AGREES):
-        return ""
-    return rf"{left}={_written(parts, symbols)} = \text{{{value_text(value, output)}}}"
+    ways = ((i, extra) for i in range(len(said)) for extra in ({}, _CHARGE))
+    return next(filter(None, (_shown(result, output, said, i, extra) for i, extra in ways)), "")
 
 
-def _known(result: Result) -> Iterator[tuple[str, tuple[float, str]]]:
-    """Symbols with their values and what is written for them."""
-    for found, row in zip(result.beside, beside_rows(result), strict=True):
+def _shown(
+    result: Result,
+    output: Parameter,
+    said: list[list[str]],
+    which: int,
+    extra: Mapping[str, tuple[float, str]],
+) -> str:
+    """A statement with numbers, if it is about an output and gives it, and the definitions it needs."""
+    sides = said[which]
+    names = _spellings(output.symbol)
+    value = float(result.outputs[output.name])
+    others = [row for i, row in enumerate(said) if i != which and is_symbol(row[0])]
+    definitions = {row[0]: row[1:] for row in reversed(others) if row[0] not in names}
+    given = _given(result, definitions, extra)
+    for name in names:
+        given.pop(name, None)
+    for left in sides:
+        asked = any(_stands(name, left) for name in names)
+        if not asked and not (which == 0 and left is sides[0]):
+            continue
+        for right in (side for side in sides if side is not left):
+            meanings = _Meanings(given, definitions)
+            try:
+                found, parts = _worked_out(right, meanings)
+                alone = not asked or re.sub(r"\(.*\)$", "", left) in names
+                fits = (
+                    math.isclose(found, value, rel_tol=AGREES)
+                    if alone
+                    else _solved(left, found, value, output.symbol, given, definitions)
+                )
+                if not fits or not any(part in meanings for part in parts):
+                    continue
+            except _UNREAD:
+                continue
+            reached = rf"\text{{{value_text(value, output)}}}"
+            end = f"= {reached}" if alone else rf"\;\Rightarrow\; {output.symbol} = {reached}"
+            return ",\\quad ".join((f"{left} = {_written(parts, meanings)} {end}", *meanings.used.values()))
+    return ""
+
+
+def _stands(symbol: str, side: str) -> bool:
+    """Whether a symbol stands in a side."""
+    return bool(symbol) and symbol in cut(side, {symbol: 0.0})
+
+
+def _solved(
+    left: str,
+    found: float,
+    value: float,
+    symbol: str,
+    given: Mapping[str, _Meaning],
+    definitions: Mapping[str, list[str]],
+) -> bool:
+    """Whether what was found for the right side lies between those left sides that values on both sides of
+    the result give, within the tolerance.
+    """
+    ends = [
+        _worked_out(left, _Meanings({**given, symbol: _Meaning(value * f, "", "")}, definitions))[0]
+        for f in (1.0 - AGREES, 1.0 + AGREES)
+    ]
+    return min(ends) < max(ends) and min(ends) <= found <= max(ends)
+
+
+def _given(
+    result: Result, defined: Mapping[str, list[str]], extra: Mapping[str, tuple[float, str]]
+) -> dict[str, _Meaning]:
+    """What symbols stand for before anything is worked out: constants where no definition says otherwise,
+    numbers beside the result, inputs.
+    """
+    found = {
+        symbol: _Meaning(value, unit, f"{format_number(value)} {pretty_unit(unit)}")
+        for symbol, (value, unit) in {**_CONSTANTS, **extra}.items()
+        if symbol not in defined
+    }
+    for there, row in zip(result.beside, beside_rows(result), strict=True):
         if row.symbol:
-            yield row.symbol, (found["value"], row.text)
+            found[row.symbol] = _Meaning(there["value"], "", row.text)
     for p in result.card.parameters:
         value = result.inputs[p.name]
-        if (
-            p.kind is not None
-            and p.term is not None
-            and p.term.symbol
-            and value is not None
-            and not np.ndim(value)
-        ):
-            yield p.term.symbol, (float(value), _text(float(value), p))
-
-
-def _text(value: float, p: Parameter) -> str:
-    assert p.kind is not None
-    unit = "K" if p.kind.unit == "delta_degC" else p.kind.unit
-    return f"{format_number(value)} {pretty_unit(unit)}".strip()
-
-
-@cache
-def _pattern(symbol: str) -> re.Pattern[str]:
-    """A symbol where it is not the beginning of another one."""
-    letters = "(?![A-Za-z])" if re.search(r"\\[A-Za-z]+$", symbol) else ""
-    return re.compile(re.escape(symbol).replace(r"\ ", r"\s*") + letters + r"(?!\s*[_'])")
-
-
-def _parts(equation: str, symbols: Symbols) -> list[str]:
-    """An equation cut into symbols, commands, numbers and signs."""
-    longest = sorted(symbols, key=len, reverse=True)
-    found, at = [], 0
-    while at < len(equation):
-        symbol = next((s for s in longest if _pattern(s).match(equation, at)), None)
-        part = _pattern(symbol).match(equation, at) if symbol else _TOKEN.match(equation, at)
-        assert part is not None  # a token is at least one character
-        found.append(symbol or part[0])
-        at = part.end()
+        if p.kind is None or not p.symbol or value is None:
+            continue
+        unit = "K" if p.kind.unit == "delta_degC" else p.kind.unit
+        numbers = np.asarray(value, dtype=float)
+        series = {p.symbol.removesuffix("_i") + f"_{i}": x for i, x in enumerate(numbers.flat, 1)}
+        rows = {p.symbol: numbers.item()} if numbers.ndim == 0 else series if p.symbol.endswith("_i") else {}
+        for symbol, x in rows.items():
+            found |= dict.fromkeys(
+                _spellings(symbol),
+                _Meaning(float(x), unit, f"{format_number(float(x))} {pretty_unit(unit)}".strip()),
+            )
     return found
 
 
-class _Reader:
-    """Reads an equation as a sum of products; ``ValueError`` where it holds what is not known here."""
-
-    def __init__(self, parts: list[str], symbols: Symbols):
-        self._parts = [part for part in parts if part not in _SPACES]
-        self._symbols = symbols
-        self._at = 0
-
-    def whole(self) -> float:
-        """The value of all of it."""
-        value = self._sum("")
-        if self._at < len(self._parts):
-            raise ValueError
-        return value
-
-    def _next(self) -> str:
-        return self._parts[self._at] if self._at < len(self._parts) else ""
-
-    def _take(self, wanted: str = "") -> str:
-        part = self._next()
-        if not part or (wanted and part != wanted):
-            raise ValueError
-        self._at += 1
-        return part
-
-    def _sum(self, end: str) -> float:
-        total, sign = 0.0, 1.0
-        while True:
-            if self._next() in ("+", "-"):
-                sign = -sign if self._take() == "-" else sign
-            total += sign * self._product(end)
-            if self._next() not in ("+", "-"):
-                return total
-            sign = 1.0
-
-    def _product(self, end: str) -> float:
-        value = self._power(end)
-        while self._next() not in ("", "+", "-", ")", "]", "}", end):
-            if self._next() == "/":
-                self._take()
-                value /= self._power(end)
-            else:
-                if self._next() in (r"\cdot", r"\times"):
-                    self._take()
-                value *= self._power(end)
-        return value
-
-    def _power(self, end: str) -> float:
-        value = self._factor(end)
-        if self._next() == "^":
-            self._take()
-            value = value ** self._group()
-        return value
-
-    def _group(self) -> float:
-        """What a command or a power takes: braces, or the next digit or symbol."""
-        if self._next() == "{":
-            return self._bracket()
-        part = self._take()
-        if part in self._symbols:
-            return self._symbols[part][0]
-        if len(part) > 1 and part.isdigit():  # \frac12
-            self._at -= 1
-            self._parts[self._at : self._at + 1] = list(part)
-            part = self._take()
-        return float(part)
-
-    def _bracket(self) -> float:
-        close = _CLOSES[self._take()]
-        value = self._sum(close)
-        self._take(close)
-        return abs(value) if close == "|" else value
-
-    def _factor(self, end: str) -> float:
-        part = self._next()
-        if part in self._symbols:
-            return self._symbols[self._take()][0]
-        if part in _CLOSES and part != end:
-            return self._bracket()
-        self._take()
-        if part in (r"\frac", r"\tfrac", r"\dfrac"):
-            return self._group() / self._group()
-        if part == r"\sqrt":
-            order = self._bracket() if self._next() == "[" else 2.0
-            return self._group() ** (1.0 / order)
-        if part[:1] == "\\" and part[1:] in _FUNCTIONS:
-            return self._function(part[1:], end)
-        if part in (r"\pi", "e"):
-            return math.pi if part == r"\pi" else math.e
-        return float(part)
-
-    def _function(self, name: str, end: str) -> float:
-        if self._next() == "_":  # \log_{10}
-            self._take()
-            if self._group() != 10.0:
-                raise ValueError
-        power = 1.0
-        if self._next() == "^":
-            self._take()
-            power = self._group()
-        return _FUNCTIONS[name](self._power(end)) ** power
+def _spellings(symbol: str) -> tuple[str, ...]:
+    """A symbol as it may stand in an equation: a ratio also as a fraction."""
+    above, stroke, below = symbol.partition("/")
+    return (symbol, rf"\frac{{{above}}}{{{below}}}") if stroke and "(" not in symbol else (symbol,)
 
 
-def _written(parts: list[str], symbols: Symbols) -> str:
+def _written(parts: list[str], symbols: Mapping[str, _Meaning]) -> str:
     """The equation with words for its symbols: signs of multiplication between factors, brackets under a
     power.
     """
     shown: list[str] = []
     for i, part in enumerate(parts):
-        before = next((p for p in reversed(parts[:i]) if p not in _SPACES), "")
+        before = next((p for p in reversed(parts[:i]) if p not in SPACES), "")
         if _multiplied(parts, i, before, symbols):
             shown.append(r"\cdot ")
         if part in symbols:
-            word = _word(symbols[part][1], parts[i + 1 :])
+            word = _word(symbols[part].text, parts[i + 1 :])
             shown.append(f"{{{word}}}" if before in _TAKES else word)
         else:
             shown.append(f"{part} " if re.fullmatch(r"\\[A-Za-z]+", part) else part)
     return "".join(shown)
 
 
-_TAKES = (r"\sqrt", r"\frac", r"\tfrac", r"\dfrac", "^", "_")  # what follows is theirs
+_TAKES = (r"\sqrt", *FRACTIONS, "^", "_")  # what follows is theirs
 
 
-def _multiplied(parts: list[str], i: int, before: str, symbols: Symbols) -> bool:
+def _multiplied(parts: list[str], i: int, before: str, symbols: Mapping[str, _Meaning]) -> bool:
     """Whether a factor begins here after another one, of which at least one is a word."""
     part = parts[i]
     begins = (
-        part in ("(", "[", r"\left", r"\pi")
-        or part[1:] in _FUNCTIONS
-        or part in _TAKES[:4]
+        part in ("(", "[", r"\left", r"\pi", "e", r"\sqrt", *FRACTIONS)
+        or function_name(part) != ""
         or part[0].isdigit()
     )
     if part in ("(", "[") and i > 0 and parts[i - 1] == r"\left":
@@ -244,10 +294,10 @@ def _multiplied(parts: list[str], i: int, before: str, symbols: Symbols) -> bool
 
 def _denominator(before: list[str]) -> bool:
     """Whether what follows stands under a fraction whose numerator has been one digit or symbol."""
-    return "".join(before[-2:-1]) in _TAKES[1:4]
+    return "".join(before[-2:-1]) in FRACTIONS
 
 
 def _word(word: str, after: list[str]) -> str:
-    following = next((p for p in after if p not in _SPACES), "")
+    following = next((p for p in after if p not in SPACES), "")
     text = rf"\text{{{word}}}"
     return rf"\left({text}\right)" if following == "^" or word[0] == "\u2212" else text
