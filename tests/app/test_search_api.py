@@ -94,7 +94,7 @@ def test_every_page_of_the_documentation_can_be_read(name: str) -> None:
 
 def test_there_are_lines_and_pages_to_find() -> None:
     assert len(examples()) > 40
-    assert {"guides/first-hour", "theory/settling", "fr/premiere-heure", "errata"} <= set(pages())
+    assert {"guides/first-hour", "handbook/settling", "fr/premiere-heure", "errata"} <= set(pages())
 
 
 def test_equipment_as_a_form_says_what_it_means_in_words(client: Any) -> None:
