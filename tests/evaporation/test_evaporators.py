@@ -53,7 +53,7 @@ def test_triple_effect_of_geankoplis_needs_the_printed_steam():
     )
     made = unit.operate(feed=juice())
     assert float(made.figures.steam_flow) * 3600.0 == pytest.approx(8972.0, rel=0.03)
-    assert float(made.figures.evaporation) * 3600.0 == pytest.approx(22680.0 * 0.8, rel=0.04)
+    assert float(made.figures.evaporation_rate) * 3600.0 == pytest.approx(22680.0 * 0.8, rel=0.04)
     closes(made, juice())
 
 
@@ -64,7 +64,7 @@ def test_one_effect_by_hand():
     unit = Evaporator("10 m^2", "1 atm", "2 bar", heat_transfer_coefficient=2000.0)
     made = unit.operate(feed=entering)
     assert float(made.figures.heat_duty) == pytest.approx(20000.0 * 20.24, rel=2e-3)
-    assert float(made.figures.evaporation) == pytest.approx(20000.0 * 20.24 / 2.2565e6, rel=0.01)
+    assert float(made.figures.evaporation_rate) == pytest.approx(20000.0 * 20.24 / 2.2565e6, rel=0.01)
     assert float(made.figures.boiling_point_elevation) == pytest.approx(0.0, abs=1e-9)
 
 

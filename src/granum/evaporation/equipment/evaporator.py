@@ -47,7 +47,7 @@ DropShare = Annotated[Ratio, Within(0.0, 0.1)]
 class EvaporatorFigures(NamedTuple):
     """Figures of an evaporator of one effect."""
 
-    evaporation: MassFlow
+    evaporation_rate: MassFlow
     boiling_temperature: Temperature
     boiling_point_elevation: TemperatureDifference
     solute_mass_fraction: MassFraction

@@ -39,7 +39,7 @@ UNSOLVED = (
 class TrainFigures(NamedTuple):
     """Figures of a multiple-effect evaporator."""
 
-    evaporation: MassFlow
+    evaporation_rate: MassFlow
     steam_flow: MassFlow
     steam_economy: Ratio
     solute_mass_fraction: MassFraction
