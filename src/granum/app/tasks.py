@@ -60,6 +60,16 @@ def evaluable(key: str, sorts: tuple[str, ...]) -> Any:
     return thing
 
 
+def valued(key: str) -> Any:
+    """A formula, a procedure or a law that needs no more than numbers."""
+    thing = evaluable(key, ("formula", "procedure", "law"))
+    if not hasattr(thing, "evaluate"):
+        raise InputError(
+            _("'{key}' is used inside equipment and has no value by itself.").format(key=thing.card.key)
+        )
+    return thing
+
+
 def given_values(inputs: dict[str, Any]) -> dict[str, Any]:
     """Inputs as text, numbers or ``{"value", "unit"}``; empty ones are left out."""
     values: dict[str, Any] = {}
@@ -107,11 +117,7 @@ def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
 
 def calculate(payload: dict[str, Any], _tell: Tell) -> bytes:
     """Evaluate a formula, a procedure or a law that needs no more than numbers."""
-    thing = evaluable(payload["key"], ("formula", "procedure", "law"))
-    if not hasattr(thing, "evaluate"):
-        raise InputError(
-            _("'{key}' is used inside equipment and has no value by itself.").format(key=thing.card.key)
-        )
+    thing = valued(payload["key"])
     given, spreads = inputs_for(thing.card, payload["inputs"]), {}
     if thing.card.sort != "law":
         given, spreads = split(thing.card, given)
@@ -134,7 +140,7 @@ def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The chart of one result over one input, with the choice of both; and what other laws give where that
     is wanted.
     """
-    return packed(described_curve(evaluable(payload["key"], ("formula", "procedure")), payload))
+    return packed(described_curve(valued(payload["key"]), payload))
 
 
 def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -144,7 +150,7 @@ def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 def calculation(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The sheet of a calculation, HTML."""
-    return sheet(evaluable(payload["key"], ("formula", "procedure")), payload).encode()
+    return sheet(valued(payload["key"]), payload).encode()
 
 
 def chart(payload: dict[str, Any], tell: Tell) -> bytes:
