@@ -133,7 +133,7 @@ def pressure_gradient_solid_konno_saito(mass_flux: MassFlux, diameter: Length) -
     """Pressure that the friction of conveyed solid takes per length of straight pipe; the mass flux is that
     of the solid.
 
-    The weight of the solid in a rising pipe comes on top.
+    The weight of the solid in a rising pipe comes on top. Constant recalled, not opened.
 
     By hand: 0.057·100·√(9.80665/0.1).
 

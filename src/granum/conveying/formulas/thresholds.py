@@ -230,7 +230,7 @@ def choking_yang(
     """Gas velocity in a rising pipe below which the gas no longer carries the particles singly by Yang; the
     mass flux is that of the solid.
 
-    For air near the atmosphere: there it is what Punwani's law says.
+    For air near the atmosphere: there it is what Punwani's law says. Constant recalled, not opened.
 
     >>> 1.5 < choking_yang(21.2, 2000.0, 0.443, "50 mm").choking_velocity < 3.0
     True
