@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from granum.core import flags, record_steps, registry
+from granum.core.conversion import convert
 from granum.core.errors import ApplicabilityError, InputError
 from granum.cyclones.formulas.efficiency import vortex_exponent_alexander
 from granum.filtration.formulas.mass_balance import dry_cake_per_filtrate
@@ -246,3 +247,12 @@ def test_a_cold_temperature_with_its_unit_is_taken_and_told() -> None:
     told = registry.find("materials.water_density").evaluate(temperature="25 K").notices
     assert any("read in kelvin" in n["message"] for n in told)
     assert not vortex_exponent_alexander.evaluate(diameter=0.3, temperature="25 degC").notices
+
+
+def test_a_whole_number_is_a_choice_that_is_written_as_text() -> None:
+    evaporator = registry.find("evaporation.multiple_effect_evaporator")
+    given = {p.name: p for p in evaporator.card.parameters}["effect_count"]
+    assert convert(3, given) == "3"
+    for odd in (9, 10**5000, True, -3):
+        with pytest.raises(InputError, match="effect_count"):
+            convert(odd, given)
