@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.contracts import unit_cases
+from tests.contracts import evaporator_cases, unit_cases
 from tests.contracts.unit_search import EMPTY, Case, Tried, disordered, rows, tried, wrong
 from tests.sharing.samples import SAMPLES
 
@@ -19,8 +19,21 @@ GROUPS = {
     "centrifuges": unit_cases.centrifuges,
     "basics": unit_cases.basics,
     "crystallizers": unit_cases.crystallizers,
+    "evaporators": evaporator_cases.evaporators,
 }
-QUICK = ("mill plug", "screen ideal", "sized screen 3 wet", "drum", "decanter", "peeler", "heater", "msmpr")
+QUICK = (
+    "mill plug",
+    "screen ideal",
+    "sized screen 3 wet",
+    "drum",
+    "decanter",
+    "peeler",
+    "heater",
+    "msmpr",
+    "evaporator",
+    "recompression",
+    "train",
+)
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)
 CASES = [(group, name) for group, made in GROUPS.items() for name in made(2) if SAMPLES or name in QUICK]

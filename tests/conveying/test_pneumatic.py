@@ -158,7 +158,7 @@ def test_without_solid_the_line_is_a_pipe() -> None:
     flux = float(gas.gas_flow) / (PIPE * 0.01)
     rho = float(gas.gas_density)
     f = gr.conveying.friction_factor_churchill(flux * 0.1 / float(gas.gas_viscosity), 5e-4)
-    start = 2e5 - flux**2 / rho
+    start = 2e5 - 0.5 * flux**2 / rho  # Bernoulli: from rest
     end = np.sqrt(start**2 - flux**2 * (2e5 / rho) * f * 2000.0)
     assert run.figure("u.pressure_drop") == pytest.approx(2e5 - end, rel=1e-6)
     assert run.figure("u.saltation_velocity") == 0.0 == run.figure("u.choking_velocity")

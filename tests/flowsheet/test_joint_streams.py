@@ -254,7 +254,7 @@ OTHERS = {
     },
 }
 # small, for a feed of one kilogram of liquor a second
-BOILING = {"elevation_linear": 5.0, "elevation_quadratic": 20.0}
+BOILING = {"elevation_linear": "5 K", "elevation_quadratic": "20 K"}
 EVAPORATORS = {
     "evaporation.evaporator": BOILING
     | {

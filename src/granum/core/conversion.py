@@ -168,7 +168,7 @@ def _items(values: Any, parameter: Parameter, where: str) -> Any:
 def _choice(value: Any, parameter: Parameter, where: str) -> Any:
     if isinstance(value, str) and value not in parameter.choices:  # a number typed as text
         value = next((choice for choice in parameter.choices if str(choice) == value.strip()), value)
-    if isinstance(value, int) and value not in parameter.choices:  # a text that is a number
+    if isinstance(value, int) and not isinstance(value, bool) and value not in parameter.choices:  # as text
         texts = [choice for choice in parameter.choices if isinstance(choice, str) and choice.isdecimal()]
         value = next((text for text in texts if int(text) == value), value)
     fits = isinstance(value, (str, int, float)) and any(

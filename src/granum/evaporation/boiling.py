@@ -14,6 +14,7 @@ import jax.numpy as jnp
 from granum.core.errors import CaseError
 from granum.core.i18n import _
 from granum.crystallization.equipment.roles import Roles, roles, with_crystals
+from granum.materials.fluids import Fluid
 from granum.materials.solutes import SoluteSystem
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
@@ -82,17 +83,22 @@ class Liquor:
         systems = [self._system(s.name) for s in self.mixture.liquids[1:]]
         return [s.activity_law if s and not s.activity_law.is_missing else None for s in systems]
 
+    @property
+    def solvent(self) -> Fluid:
+        """The first liquid, pure."""
+        return self.mixture.materials.fluid(self.mixture.liquids[0].name)
+
     def vapor_pressure(self, T: Any) -> Any:
         """Of the pure solvent, Pa."""
-        return self.mixture.materials.fluid(self.mixture.liquids[0].name).vapor_pressure.value(T)
+        return self.solvent.vapor_pressure.value(T)
 
     def pure_boiling(self, pressure: Any) -> Any:
         """Of the pure solvent, K."""
-        return self.mixture.materials.fluid(self.mixture.liquids[0].name).boiling_temperature(pressure)
+        return self.solvent.boiling_temperature(pressure)
 
     def latent(self, T: Any) -> Any:
         """Heat of vaporization of the pure solvent, J/kg."""
-        return self.mixture.materials.fluid(self.mixture.liquids[0].name).heat_of_vaporization.value(T)
+        return self.solvent.heat_of_vaporization.value(T)
 
     @property
     def vapor(self) -> int:

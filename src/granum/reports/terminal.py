@@ -72,7 +72,10 @@ def _table(*columns: tuple[str, str]) -> Table:
 def _notices(console: Console, notices: Iterable[dict[str, Any]]) -> None:
     for notice in notices:
         style = CAUTION if notice["flag"] in ("extrapolated", "limit active") else OUT
-        console.print(Text("! " + notice["message"], style=style))
+        told = notice["message"]
+        if notice.get("unit"):
+            told = _("{unit}: {message}").format(unit=notice["unit"], message=told)
+        console.print(Text("! " + told, style=style))
 
 
 def print_result(result: Result, within: Mapping[str, str] | None = None) -> None:

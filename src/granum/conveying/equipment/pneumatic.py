@@ -105,9 +105,9 @@ class PneumaticConveyor(Unit):
     The gas brings the pressure at which the solid enters; what the line takes from it is found step by step,
     as the gas expands at constant temperature. Rise and bends lie evenly spread along the way. Particles
     count with their mass median size; gas and solid leave at the temperature of their mixture, and moisture
-    neither dries nor condenses on the way. Solid and gas are brought from rest once, where the solid enters.
-    Friction of the solid is that of Konno and Saito; Hinkle's, for coarse grains in level pipes, is several
-    times as much.
+    neither dries nor condenses on the way. Where the solid enters, the gas speeds up without loss and then
+    gives the solid its momentum. Friction of the solid is that of Konno and Saito; Hinkle's, for coarse
+    grains in level pipes, is several times as much.
     """
 
     diameter: Length
@@ -177,7 +177,7 @@ class PneumaticConveyor(Unit):
                 + self.bends * bend
             )
 
-        started = mixed.pressure - flux * lag * velocity - density * velocity**2
+        started = mixed.pressure - flux * lag * velocity - 0.5 * density * velocity**2
         end = _marched(gradient, started, LEAST * mixed.pressure)
         stands = (end > LEAST * mixed.pressure) & ((velocity > 0.0) | ~some)
         unsolved(stands, type(self).card, reason=UNSOLVED)

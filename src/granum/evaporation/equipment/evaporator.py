@@ -15,7 +15,6 @@ from granum.core.kinds import (
     Length,
     MassFlow,
     MassFraction,
-    Number,
     PositiveNumber,
     Power,
     Pressure,
@@ -32,7 +31,7 @@ from granum.particles.size_laws import LogNormal
 from granum.streams.formulas.drives import shaft_power_adiabatic
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities, Utility
-from granum.streams.utilities import HEAT_APPROACH, HEATED, driven, heated
+from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, driven, heated
 
 STEAM_RATIO = 1.3  # of the heat capacities of low-pressure steam
 COLD_CHEST = (
@@ -86,8 +85,8 @@ class Heating(Unit):
     pressure_steam: Pressure
     fouling_thermal_resistance: ThermalResistance = eqx.field(kw_only=True, default=0.0)
     drop_entrainment: DropShare = eqx.field(kw_only=True, default=0.0)
-    elevation_linear: Number | None = eqx.field(kw_only=True, default=None)
-    elevation_quadratic: Number | None = eqx.field(kw_only=True, default=None)
+    elevation_linear: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
+    elevation_quadratic: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
     crystal_size: Length = eqx.field(kw_only=True, default=400e-6)
     geometric_standard_deviation: Annotated[PositiveNumber, Within(1.01, 10.0)] = eqx.field(
         kw_only=True, default=1.5
@@ -101,7 +100,7 @@ class Heating(Unit):
             "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
         ),
     }
-    utilities: ClassVar[Utilities] = HEATED
+    utilities: ClassVar[Utilities] = HEATED | AREA
 
     def liquor(self, feed: Stream) -> Liquor:
         """The solution, with the elevation that is given or that of the library."""
@@ -198,7 +197,7 @@ class Evaporator(_Single):
         figures: EvaporatorFigures,
         feed: Stream,
     ) -> dict[str, Any]:
-        return heated(outlets.heat_duty, inside[2] - HEAT_APPROACH)
+        return heated(outlets.heat_duty, inside[2] - HEAT_APPROACH) | {"area_installed": self.area}
 
 
 @equipment(
@@ -219,7 +218,9 @@ class RecompressionEvaporator(_Single):
     limits: ClassVar[Limits] = Heating.limits | {
         "compression": Limit("pressure ratio of one stage", 1.0, 2.0, "dimensionless", "perry2008, § 11")
     }
-    utilities: ClassVar[Utilities] = HEATED | {"electric_power_compressor": Utility("mujumdar2014")}
+    utilities: ClassVar[Utilities] = Heating.utilities | {
+        "electric_power_compressor": Utility("mujumdar2014")
+    }
 
     def inside(self, feed: Stream) -> tuple[Liquor, Effect, Any, Recompressed]:
         liquor, made, chest = self.effect(feed)
@@ -275,5 +276,5 @@ class RecompressionEvaporator(_Single):
         figures: EvaporatorFigures,
         feed: Stream,
     ) -> dict[str, Any]:
-        drive = {"electric_power_compressor": driven(outlets.shaft_power)}
-        return heated(outlets.heat_duty, inside[2] - HEAT_APPROACH) | drive
+        machine = {"electric_power_compressor": driven(outlets.shaft_power), "area_installed": self.area}
+        return heated(outlets.heat_duty, inside[2] - HEAT_APPROACH) | machine

@@ -220,7 +220,8 @@ class MultipleEffectEvaporator(Heating):
         }
 
     def drawn(self, inside: Train, outlets: FromTrain, figures: TrainFigures, feed: Stream) -> dict[str, Any]:
-        return heated(outlets.heat_duty, inside.chest - HEAT_APPROACH)
+        area = {"area_installed": int(self.effect_count) * self.area}
+        return heated(outlets.heat_duty, inside.chest - HEAT_APPROACH) | area
 
 
 def _together(streams: list[Stream]) -> Stream:
