@@ -29,7 +29,7 @@ from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import pretty_unit
 from granum.reports.mathml import mathml
 from granum.reports.quantities import limit_rows, value_text
-from granum.reports.stated import with_equations, with_numbers
+from granum.reports.stated import in_french_print, with_equations, with_numbers
 from granum.reports.utilities import utility_rows
 
 ROOT = Path(__file__).parent.parent
@@ -153,6 +153,8 @@ def on_page_markdown(markdown: str, page: Any, **_more: Any) -> str:
     place = page.file.src_uri
     code = "fr" if place.startswith("fr/") else "en"
     domain = Path(place).stem
+    if code == "fr":
+        markdown = in_french_print(markdown)
     if place == chapters.PLACES[code].format(domain) and domain in chapters.domains():
         markdown = _chapter(markdown, domain, code)
 

@@ -201,3 +201,29 @@ def test_the_sheet_holds_the_calculation(client: httpx.Client, language: str) ->
         not in client.post(f"/api/sheet/{STOKES}", json=asked | {"link": "javascript:alert(1)"}).text[-3000:]
     )
     assert not re.search(r"<(?:script|link|img)[^>]*(?:src|href)=", answer.text), "nothing is fetched"
+
+
+def test_an_input_of_a_law_is_found(client: httpx.Client) -> None:
+    """360 over 280 g/kg is 2/7 of relative supersaturation: 10 µm/s give 20/7 µm/s."""
+    given = {
+        "solute_per_solvent": "360 g/kg",
+        "solubility_per_solvent": "280 g/kg",
+        "temperature": "43 degC",
+        "growth_coefficient": "1 um/s",
+    }
+    asked = {
+        "inputs": given,
+        "find": "growth_coefficient",
+        "output": "growth_rate",
+        "wanted": f"{20 / 7} um/s",
+    }
+    found = client.post("/api/solve/crystallization.power_law_growth", json=asked)
+    assert found.status_code == 200, found.text
+    assert float(found.json()["text"].split()[0]) == pytest.approx(10.0, rel=1e-6)
+
+
+def test_the_streams_of_a_machine_alone_have_names_of_the_language(page: Page) -> None:
+    page.open("calculate/evaporation.evaporator", "fr")
+    page.one("[data-figure]")
+    names = [e.text for e in page.all("tbody th")]
+    assert {"alimentation", "produit", "vapeur"} <= set(names), names

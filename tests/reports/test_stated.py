@@ -11,7 +11,7 @@ import pytest
 
 from granum.app.reading import as_html
 from granum.core.i18n import language
-from granum.reports.stated import STATED, printed_number, stated_number
+from granum.reports.stated import STATED, in_french_print, printed_number, stated_number
 
 FIGURE = re.compile(r"^\[\[figure (\w+)\]\]$", re.MULTILINE)
 DOCS = Path(__file__).parents[2] / "docs"
@@ -62,3 +62,15 @@ def test_a_chapter_is_read_in_the_app(name: str) -> None:
     assert "{{" not in shown
     assert "<math" in shown
     assert "#/find/filtration.leaf_test" in shown
+
+
+def test_french_print_leaves_code_equations_and_links_alone() -> None:
+    written = (
+        "Qu'est-ce : « oui » ? `f'x : 1`\n\n| a | b |\n| :-- | --: |\n\n$x : y$ [l'eau](card:l'x : y) "
+        "{{d['a'] = 1 m}} !"
+    )
+    shown = in_french_print(written).replace("\u00a0", "~")
+    assert shown == (
+        "Qu’est-ce~: «~oui~»~? `f'x : 1`\n\n| a | b |\n| :-- | --: |\n\n$x : y$ [l’eau](card:l'x : y) "
+        "{{d['a'] = 1 m}}~!"
+    )

@@ -10,6 +10,7 @@ from typing import Any
 from granum.app.case_forms import FEED_KINDS, case_value
 from granum.app.forms import card_form, fields_of
 from granum.cases.alone import PHASES, case_text, tables
+from granum.cases.outline import port_label
 from granum.core import registry
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -18,7 +19,7 @@ from granum.core.sources import cite
 from granum.materials.library import session
 
 LABELS = {"solid_flow": "solid flow", "liquid_flow": "liquid flow", "gas_flow": "gas flow"}
-PORTS = {"cooling": "cooling air", "outdoor": "outdoor air", "exhaust": "exhaust air"}
+AIRS = {"cooling": "cooling air", "outdoor": "outdoor air", "exhaust": "exhaust air"}
 
 
 def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
@@ -52,6 +53,7 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
         "parameters": form["parameters"],
         "groups": [*groups, {"name": "mixture", "title": _("Substances"), "parameters": rows}],
         "without": spare,
+        "ports": {port: port_label(port) for port in (*(thing.inlet_names() or ()), *thing.outlet_names())},
         "values": values,
         "case": case_text(key, given),
         "command": " ".join(["granum calc", key, *(shlex.quote(f"{n}={v}") for n, v in given.items())]),
@@ -60,7 +62,7 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _port(port: str) -> str:
-    text = _(PORTS.get(port, port.replace("_", " ")))
+    text = _(AIRS[port]) if port in AIRS else port_label(port)
     return text[0].upper() + text[1:]
 
 

@@ -14,7 +14,7 @@ from granum.app.shipped import pages
 from granum.core.errors import unknown_name
 from granum.core.i18n import _, language
 from granum.core.index import entries
-from granum.reports.stated import with_equations, with_numbers
+from granum.reports.stated import in_french_print, with_equations, with_numbers
 
 _HEADING = re.compile(r"^#+\s+(.+)$", re.MULTILINE)
 _FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
@@ -49,6 +49,8 @@ def page(name: str) -> Page:
     if name.startswith(CHAPTERS):
         with language(code):
             text = with_numbers(text)
+    if code == "fr":
+        text = in_french_print(text)
     return Page(name, headings[0] if headings else name, code, tuple(headings[1:]), text)
 
 

@@ -145,7 +145,7 @@ def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The input for which a result is the wanted one."""
-    return packed(solved_input(evaluable(payload["key"], ("formula", "procedure")), payload))
+    return packed(solved_input(valued(payload["key"]), payload))
 
 
 def calculation(payload: dict[str, Any], _tell: Tell) -> bytes:

@@ -85,9 +85,13 @@ def pretty(name: str) -> str:
     return unit.replace("_", " ") + (f" · {port_label(port)}" if dot else "")
 
 
+# where the bare word says something else in another place
+PORTS = {"heavy": "heavy liquid", "light": "light liquid"}
+
+
 def port_label(port: str) -> str:
     """The name of a port in the current language."""
-    return _(port.replace("_", " "))
+    return _(PORTS.get(port, port.replace("_", " ")))
 
 
 def outline(case: str) -> Outline:

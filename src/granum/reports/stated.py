@@ -67,6 +67,29 @@ def printed_number(text: str) -> str:
     return f"{number}\u00a0{typographic(pretty_unit(unit))}"
 
 
+_KEPT = re.compile(  # code, equations, statements, targets of links, what the site makes
+    r"^```.*?^```|`[^`\n]*`|\$\$.+?\$\$|\$[^$\n]+\$|\{\{.+?\}\}|\]\([^)\n]*\)|\[\[.*?\]\]|https?://\S+",
+    re.MULTILINE | re.DOTALL,
+)
+
+
+def in_french_print(text: str) -> str:
+    """Markdown with the apostrophes and the no-break spaces of French print; code, equations and links stay.
+
+    >>> in_french_print("l'eau : `l'x : 1`").replace("\u00a0", "~")
+    "l’eau~: `l'x : 1`"
+    """
+    found, at = [], 0
+    for kept in _KEPT.finditer(text):
+        found += [_printed(text[at : kept.start()]), kept[0]]
+        at = kept.end()
+    return "".join([*found, _printed(text[at:])])
+
+
+def _printed(text: str) -> str:
+    return re.sub(r"(?<!\s) (?=[:;!?»](?:\s|$))|(?<=«) ", "\u00a0", typographic(text))
+
+
 def with_numbers(text: str) -> str:
     """A text with the numbers that it states, printed."""
     return STATED.sub(lambda found: printed_number(found[2]), text)

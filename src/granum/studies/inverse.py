@@ -84,7 +84,7 @@ def _asked(
 ) -> tuple[Parameter, Parameter, float, dict[str, Any]]:
     """Input and result that are meant, the wanted result in SI, and the other inputs."""
     card = thing.card
-    if card.sort not in ("formula", "procedure"):
+    if card.sort not in ("formula", "procedure", "law") or not hasattr(thing, "evaluate"):
         raise InputError(
             _("'{key}' is a {sort}; it cannot be used here.").format(key=card.key, sort=_(card.sort))
         )
