@@ -19,6 +19,7 @@ from granum.drying.equipment.drum import DrumDryer
 from granum.drying.equipment.flash import FlashDryer
 from granum.drying.equipment.fluid_bed import FluidBedDryer
 from granum.drying.equipment.freeze import FreezeDryer
+from granum.drying.equipment.freeze_trays import TrayFreezeDryer
 from granum.drying.equipment.paddle import PaddleDryer
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.silo import SiloDryer
@@ -282,6 +283,20 @@ def _freeze(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
     )  # fmt: skip
 
 
+def _trays(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
+    return TrayFreezeDryer(
+        temperature_shelf=268.0 + 80.0 * a,
+        pressure_chamber=10.0 + 90.0 * b,
+        load_per_area=3.0 + 17.0 * c,
+        thickness=2e-3 + 3e-2 * e,
+        moisture_outlet=0.005 + 0.3 * f,
+        thermal_conductivity_dry=0.02 + 0.15 * g,
+        vapor_permeability=between(a * c, 5e-9, 1e-7),
+        emissivity=0.5 + 0.5 * e,
+        conduction_coefficient=20.0 * b * g,
+    )
+
+
 BY_BALANCE: dict[str, Callable[..., Setting]] = {
     "moisture": _by_balance(
         lambda d, a, b, c, e, f, g: ConvectiveDryer(
@@ -361,6 +376,7 @@ BY_BALANCE: dict[str, Callable[..., Setting]] = {
         lambda d, a, b, c, e, f, g: WellMixedDryer(between(a, 60.0, 3600.0), 0.4 + 1.6 * b)
     ),
     "freeze": _by_balance(_freeze, POWDER),
+    "freeze on trays": _by_balance(_trays, GRAIN),
 }
 
 

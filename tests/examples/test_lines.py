@@ -9,7 +9,15 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 
-LINES = ("sewage-sludge", "ore-grinding", "batch-pharma", "starch-drying", "spray-drying", "conveying")
+LINES = (
+    "sewage-sludge",
+    "ore-grinding",
+    "batch-pharma",
+    "starch-drying",
+    "spray-drying",
+    "conveying",
+    "freeze-dried-food",
+)
 
 
 @cache

@@ -93,6 +93,10 @@ from granum.drying.equipment.freeze import (
     FreezeDryer as FreezeDryer,
     FreezeFigures as FreezeFigures,
 )
+from granum.drying.equipment.freeze_trays import (
+    TrayFreezeDryer as TrayFreezeDryer,
+    TrayFreezeFigures as TrayFreezeFigures,
+)
 from granum.drying.equipment.paddle import (
     ContactCurve as ContactCurve,
     Heat as Heat,
@@ -172,6 +176,15 @@ from granum.drying.formulas.freeze_drying import (
     freeze_drying_slab as freeze_drying_slab,
     primary_drying as primary_drying,
     secondary_drying_time as secondary_drying_time,
+)
+from granum.drying.formulas.freeze_trays import (
+    Layer as Layer,
+    TrayDrying as TrayDrying,
+    freeze_drying_tray as freeze_drying_tray,
+)
+from granum.drying.formulas.freezing import (
+    freezing_time_pham as freezing_time_pham,
+    freezing_time_plank as freezing_time_plank,
 )
 from granum.drying.formulas.heat import (
     colburn_factor_through_circulation as colburn_factor_through_circulation,

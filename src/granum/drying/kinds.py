@@ -12,6 +12,9 @@ AddedHeatTransferCoefficient = Annotated[
 ]
 ElectricField = Annotated[Any, Kind("electric field", "V/m", 0.0, display=("V/m", "kV/m", "V/cm"))]
 PowerDensity = Annotated[Any, Kind("power per volume", "W/m^3", 0.0, display=("W/m^3", "kW/m^3", "W/cm^3"))]
+EnergyPerVolume = Annotated[
+    Any, Kind("energy per volume", "J/m^3", 0.0, display=("kJ/m^3", "W*hour/m^3", "J/m^3"))
+]
 ThermalEffusivity = Annotated[
     Any, Kind("thermal effusivity", "W*s^0.5/(m^2*K)", 0.0, open_lower=True, display=("W*s^0.5/(m^2*K)",))
 ]

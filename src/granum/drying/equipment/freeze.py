@@ -73,6 +73,25 @@ class FreezeFigures(NamedTuple):
     choked_flow_rate: MassFlow | None  # of a machine whose duct is not given
 
 
+def sublimed(feed: Stream, moisture_outlet: Any, temperature: Any) -> FreezeDried:
+    """A feed parted into dry product of a temperature and the condenser's ice, melted at the feed's."""
+    first = next((liquid.name for liquid in feed.mixture.liquids), "–")
+    if first != "water":
+        raise ApplicabilityError(
+            _(
+                "A freeze dryer sublimes ice only: the first liquid of the mixture must be water "
+                "(it is {liquid})."
+            ).format(liquid=first)
+        )
+    kept = feed.liquid.at[0].set(jnp.minimum(moisture_outlet * feed.solid_flow, feed.liquid[0]))
+    product = feed.replace(
+        liquid=kept, gas=jnp.zeros_like(feed.gas), temperature=jnp.asarray(temperature, dtype=float)
+    )
+    melted = feed.replace(solid=jnp.zeros_like(feed.solid), liquid=feed.liquid - kept, gas=feed.gas)
+    duty = product.enthalpy_flow + melted.enthalpy_flow - feed.enthalpy_flow
+    return FreezeDried(product, melted, duty)
+
+
 @equipment("freeze_dryer", source="pikal1985; pikal1990; shivkumar2019", title="Freeze dryer for vials")
 class FreezeDryer(Unit):
     """Vials freeze, sublime on shelves that warm to a temperature, and desorb at a second one; batches follow
@@ -123,24 +142,7 @@ class FreezeDryer(Unit):
     utilities: ClassVar[Utilities] = HEATED | COOLED | AREA
 
     def outlets(self, inside: None, feed: Stream) -> FreezeDried:
-        first = next((liquid.name for liquid in feed.mixture.liquids), "–")
-        if first != "water":
-            raise ApplicabilityError(
-                _(
-                    "A freeze dryer sublimes ice only: the first liquid of the mixture must be water "
-                    "(it is {liquid})."
-                ).format(liquid=first)
-            )
-        keep = jnp.minimum(self.moisture_outlet * feed.solid_flow, feed.liquid[0])
-        kept = feed.liquid.at[0].set(keep)
-        product = feed.replace(
-            liquid=kept,
-            gas=jnp.zeros_like(feed.gas),
-            temperature=jnp.asarray(self.temperature_shelf_secondary),
-        )
-        melted = feed.replace(solid=jnp.zeros_like(feed.solid), liquid=feed.liquid - kept, gas=feed.gas)
-        duty = product.enthalpy_flow + melted.enthalpy_flow - feed.enthalpy_flow
-        return FreezeDried(product, melted, duty)
+        return sublimed(feed, self.moisture_outlet, self.temperature_shelf_secondary)
 
     def figures(self, inside: None, outlets: FreezeDried, feed: Stream) -> FreezeFigures:
         concentration = safe_divide(feed.solid_flow, feed.slurry_volume_flow)
