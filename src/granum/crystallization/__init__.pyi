@@ -6,6 +6,15 @@ from granum.crystallization.charts import (
     size_distribution_chart as size_distribution_chart,
     solubility_chart as solubility_chart,
 )
+from granum.crystallization.charts_solutions import (
+    antisolvent_chart as antisolvent_chart,
+)
+from granum.crystallization.equipment.antisolvent import (
+    AntisolventCrystallizer as AntisolventCrystallizer,
+    AntisolventFigures as AntisolventFigures,
+    AtShare as AtShare,
+    Drowned as Drowned,
+)
 from granum.crystallization.equipment.batch import (
     BatchCrystallizer as BatchCrystallizer,
     BatchFigures as BatchFigures,
@@ -88,6 +97,10 @@ from granum.crystallization.formulas.driving_forces import (
     LogarithmicSupersaturation as LogarithmicSupersaturation,
     MolarSupersaturation as MolarSupersaturation,
     RelativeSupersaturation as RelativeSupersaturation,
+)
+from granum.crystallization.formulas.drowning_out import (
+    antisolvent_fraction_best as antisolvent_fraction_best,
+    yield_fraction_antisolvent as yield_fraction_antisolvent,
 )
 from granum.crystallization.formulas.encrustation import (
     temperature_difference_encrustation as temperature_difference_encrustation,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from granum.core.kinds import GrowthRate, Kind, Law, MolarEnergy, PositiveNumber, Within
+from granum.core.kinds import GrowthRate, Kind, Law, MassFraction, MolarEnergy, PositiveNumber, Within
 
 PositiveTemperatureDifference = Annotated[
     Any,
@@ -49,6 +49,8 @@ SizeParameter = Annotated[
 ]
 MolarEntropy = Annotated[Any, Kind("entropy per amount", "J/(mol*K)", display=("J/(mol*K)",))]
 ForwardGrowthRate = Annotated[GrowthRate, Within(0.0)]  # crystals that grow; laws may also dissolve
+# a share of a mixture of which something else is left
+OpenShare = Annotated[MassFraction, Within(0.0, 0.999)]
 SoluteShare = Annotated[PositiveNumber, Within(0.0, 1.0)]  # anhydrous solute in a crystal
 PositiveMolarEnergy = Annotated[MolarEnergy, Within(0.0)]
 ProductionRate = Annotated[

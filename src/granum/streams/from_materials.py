@@ -1,8 +1,8 @@
 """A mixture from material names: what a case file's ``[mixture]`` table means.
 
-A liquid is a fluid of the library (the first one is the solvent) or a solute dissolved in it; a solid is a
-solid of the library, a crystal of one of those solutes when it is one of its branches; a gas is a fluid of
-the library. Enthalpies are zero for the liquid solvent, dissolved solutes and permanent gases at 0 °C, so
+A liquid is a fluid of the library or a solute dissolved in one of them, in the first that it is known in; a
+solid is a solid of the library, a crystal of one of those solutes when it is one of its branches; a gas is a
+fluid of the library. Enthalpies are zero for the liquid solvent, dissolved solutes and permanent gases at 0 °C, so
 that vapor carries its heat of vaporization and a crystal lies lower by its heat of crystallization.
 """
 
@@ -45,7 +45,7 @@ def mixture_of(
 
     Parameters
     ----------
-    liquids: solvent first, then dissolved solutes or further liquids.
+    liquids: solvent first, then dissolved solutes (in any of the liquids) or further liquids.
     solids: crystals and other solids.
     gases: carrier gases and vapors, in any order; viscosity and conductivity are those of the carrier.
     size_edges: class boundaries, m.
@@ -54,9 +54,7 @@ def mixture_of(
     """
     carrier = carrier_of(gases, liquids[0] if liquids else None) or next(iter(gases), None)
     known = session().with_files(own)
-    systems = {
-        name: system for name in liquids[1:] if (system := _system(known, name, liquids[0])) is not None
-    }
+    systems = {name: system for name in liquids[1:] if (system := _system(known, name, liquids)) is not None}
     return Mixture(
         solids=tuple(_crystal(name, systems) or _inert(known, name) for name in solids),
         liquids=tuple(
@@ -72,12 +70,12 @@ def mixture_of(
     )
 
 
-def _system(known: Library, name: str, solvent: str) -> SoluteSystem | None:
-    for candidate in (name, f"{name} in {solvent}"):
-        if candidate in known.names("solute"):
-            found = known.solute(candidate)
-            if found.solvent.name == solvent:
-                return found
+def _system(known: Library, name: str, liquids: Sequence[str]) -> SoluteSystem | None:
+    """The solute of that name in the first of the liquids that the library knows it in."""
+    for solvent in liquids:
+        for candidate in (name, f"{name} in {solvent}"):
+            if candidate in known.names("solute") and known.solute(candidate).solvent.name == solvent:
+                return known.solute(candidate)
     return None
 
 
@@ -200,7 +198,7 @@ def _above_flue(fuel: Fluid, air: Fluid, water: Fluid, T: Any) -> Any:
 @dataclass(frozen=True)
 class SolutionViscosity:
     """Viscosity of the liquid: the solvent's, raised by each solute as in its binary solution at its own
-    ratio to the solvent.
+    ratio to all that is solvent.
     """
 
     materials: Library
@@ -209,21 +207,23 @@ class SolutionViscosity:
 
     def __call__(self, mass_fractions: Any, temperature: Any) -> Any:
         pure = self.materials.fluid(self.liquids[0]).liquid_viscosity(temperature)
-        solvent = jnp.maximum(mass_fractions[0], 1e-12)
+        solvents = [i for i, name in enumerate(self.liquids) if name not in self.solutes]
+        solvent = jnp.maximum(sum(mass_fractions[i] for i in solvents), 1e-12)
         viscosity = pure
         for i, name in enumerate(self.liquids):
             if i == 0:
                 continue
             if name in self.solutes:
-                system = _system(self.materials, name, self.liquids[0])
+                system = _system(self.materials, name, self.liquids)
                 if system is None:
                     raise InputError(
                         _("'{name}' is not a solute in '{solvent}'.").format(
                             name=name, solvent=self.liquids[0]
                         )
                     )
+                alone = system.solvent.liquid_viscosity(temperature)
                 viscosity = (
-                    viscosity * system.solution_viscosity(temperature, mass_fractions[i] / solvent) / pure
+                    viscosity * system.solution_viscosity(temperature, mass_fractions[i] / solvent) / alone
                 )
             else:  # a second liquid: logarithmic mixing by mass (Arrhenius), a simplification
                 viscosity = (

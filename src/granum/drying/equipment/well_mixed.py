@@ -65,7 +65,8 @@ class WellMixedDryer(Unit):
     temperature of the bed gas, with heat transfer after Ranz and Marshall at the superficial velocity, until
     it is gone; residence times are exponential. Particles and gas leave at the bed temperature. What was
     dissolved in the evaporated water stays on the particles as solid. Simplifications: the saturated film
-    evaporates like the pure liquid, and no moisture is bound inside the crystals.
+    evaporates like the pure liquid, of several solvents only the first of the mixture, and no moisture is
+    bound inside the crystals.
     """
 
     residence_time: Time
@@ -189,10 +190,12 @@ class WellMixedDryer(Unit):
 
 def evaporate(wet: Stream, share: Any) -> Stream:
     """Move a share of the liquid that evaporates into the gas; the same share of each solute crystallizes on
-    the solid of its own name.
+    the solid of its own name. A second solvent stays.
     """
     m = wet.mixture
+    fluids = m.materials.names("fluid")
     for solute in m.liquids[1:]:
-        m.index("solids", solute.name)  # says which one is missing
+        if solute.name not in fluids:
+            m.index("solids", solute.name)  # says which one is missing
     gas = wet.gas.at[HumidMixture(m).vapor].add(wet.liquid[0] * share)
     return crystallized(wet, share).replace(gas=gas)

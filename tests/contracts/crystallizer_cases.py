@@ -1,0 +1,59 @@
+"""Crystallizers of more than one solvent, solute or phase at ordinary settings, for the contracts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax.numpy as jnp
+from tests.contracts.unit_cases import crystallizers
+from tests.contracts.unit_search import Case, shares
+
+from granum.crystallization.equipment.antisolvent import AntisolventCrystallizer
+from granum.crystallization.formulas.growth import PowerLawGrowth
+from granum.crystallization.formulas.nucleation import PowerLawNucleation
+from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
+from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream, empty
+
+
+def _met(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with nitrate, some crystals, sand, ethanol and air; as much ethanol at most,
+    with up to a fifth of water and some nitrate.
+    """
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    feed = empty(mixture, 290.0 + 30.0 * x[2]).replace(
+        solid=water
+        * jnp.stack(
+            [
+                0.1 * x[3] * (x[3] > 0.5) * shares(x[4], x[5], classes),
+                0.01 * x[7] * shares(x[5], x[4], classes),
+            ]
+        ),
+        liquid=water * jnp.stack([1.0, 0.1 + 0.4 * x[1], 0.05 * x[6]]),
+        gas=1e-4 * water * jnp.stack([0.0, x[7]]),
+    )
+    spirit = empty(mixture, 285.0 + 20.0 * x[6]).replace(
+        liquid=water * x[4] * jnp.stack([0.2 * x[5], 0.02 * x[7], 1.0 - 0.2 * x[5]])
+    )
+    return {"feed": feed, "antisolvent": spirit}
+
+
+def mixed(classes: int) -> dict[str, Case]:
+    nitrate = crystallizers(classes)["msmpr"].mixture
+    return {
+        "drowned": Case(
+            nitrate,
+            _met,
+            lambda f, u: AntisolventCrystallizer(
+                285.0 + 25.0 * u[0],
+                (f["feed"].slurry_volume_flow + f["antisolvent"].slurry_volume_flow)
+                * 10.0 ** (2.5 + 1.5 * u[1]),
+                AntisolventSolubility(PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), 1.0 + 5.0 * u[5]),
+                PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+                PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
+                solid="nitrate",
+                solvent="water",
+                second_solvent="ethanol",
+            ),
+        )
+    }
