@@ -121,7 +121,7 @@ def _step(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]:
 def _chosen(step: dict[str, Any]) -> dict[str, Any]:
     """What a step tells whose answer is chosen: the card that its subject is, where there is one."""
     card = registry.find(step["card"]).card if "card" in step else None
-    return {"card": card.key if card else "", "title": card.title if card else "", "equation": ""}
+    return {"card": card.key, "sort": card.sort, "title": card.title} if card else {"card": ""}
 
 
 def _asked(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]:
@@ -131,7 +131,9 @@ def _asked(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]
     printed = asked.get("value", asked.get("misprint")) if numbers.seed is None else None
     return {
         "card": step["card"],
+        "sort": card.sort,
         "title": card.title,
+        "unit": asked["unit"],
         "inputs": numbers.inputs(place),
         "output": asked["output"],
         "label": card.parameter(asked["output"]).label,

@@ -26,8 +26,9 @@ def tolerance_of(step: dict[str, Any], right: float) -> float:
 
 
 def marked(name: str, number: int, seed: int | None, answer: str) -> dict[str, Any]:
-    """The verdict on an answer typed as a quantity, or on the number of what was chosen: ``right``, ``wrong``,
-    or ``unclear`` when it cannot be read, with a sentence that says why.
+    """The verdict on an answer typed as a quantity, or on the number of what was chosen.
+
+    It is ``right``, ``wrong``, or ``unclear`` when it cannot be read, with a sentence that says why.
     """
     step = exercises.step_of(name, number)
     if "choices" in step:
