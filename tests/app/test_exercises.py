@@ -22,10 +22,15 @@ def seeds(exercise: dict[str, Any]) -> tuple[int | None, ...]:
     return SEEDS if exercise.get("draws") else (None,)
 
 
+def computed(exercise: dict[str, Any]) -> list[tuple[int, dict[str, Any]]]:
+    """The steps whose answer is a number."""
+    return [(place, step) for place, step in enumerate(exercise["steps"]) if "choices" not in step]
+
+
 @pytest.mark.parametrize("exercise", ALL, ids=lambda e: e["id"])
 def test_the_printed_answer_is_met_or_has_its_erratum(exercise: dict[str, Any]) -> None:
     numbers = Numbers(exercise)
-    for place, step in enumerate(exercise["steps"]):
+    for place, step in computed(exercise):
         asked, found = step["expected"], numbers.calculated(place)
         if "value" in asked:
             assert found == pytest.approx(asked["value"], abs=asked["within"]), step["ask"]["en"]
@@ -38,7 +43,7 @@ def test_the_printed_answer_is_met_or_has_its_erratum(exercise: dict[str, Any]) 
 def test_every_slip_is_told_apart_from_the_right_answer(exercise: dict[str, Any]) -> None:
     for seed in seeds(exercise):
         numbers = Numbers(exercise, seed)
-        for place, step in enumerate(exercise["steps"]):
+        for place, step in computed(exercise):
             right, unit = numbers.calculated(place), step["expected"]["unit"]
             assert marked(exercise["id"], place, seed, f"{right!r} {unit}")["verdict"] == "right"
             for slip, value in slips(numbers, place, right):
@@ -83,7 +88,7 @@ def test_statements_carry_their_numbers_in_both_languages() -> None:
                     shown = exercises.worked(exercise["id"], seed)
                 texts = [shown["statement"], *(s["ask"] + s["hint"] + s["erratum"] for s in shown["steps"])]
                 assert not [text for text in texts if "{" in text]
-                assert [s["inputs"] for s in shown["steps"]]
+                assert [s.get("inputs") or s["choices"] for s in shown["steps"]]
 
 
 @pytest.mark.parametrize(

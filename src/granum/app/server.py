@@ -214,6 +214,18 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """One exercise with its numbers: those of the course, or fresh ones."""
         return _json(await crew().run("exercise", {"name": name, "seed": seed}, name, request))
 
+    @app.get("/api/exercises/{name}/answers")
+    async def answers(request: Request, name: str, seed: int | None = None) -> Response:
+        """What is right at every step of an exercise."""
+        return _json(await crew().run("answers", {"name": name, "seed": seed}, name, request))
+
+    @app.get("/api/exercises/{name}/sheet")
+    async def answer_sheet(request: Request, name: str, first: int = 1, last: int = 30) -> Response:
+        """The answers of many students, one row a seed, as CSV."""
+        payload = {"name": name, "first": first, "last": last}
+        text = await crew().run("answer_sheet", payload, name, request)
+        return Response(text, media_type="text/csv; charset=utf-8")
+
     @app.post("/api/exercises/{name}")
     async def mark(
         request: Request,

@@ -13,6 +13,7 @@ from typing import Any
 from granum.app import exercises, studies
 from granum.app.beside import described_curve, sheet, solved_input
 from granum.app.case_forms import read_line
+from granum.app.exercises import answers as worked_answers
 from granum.app.exercises.marking import marked
 from granum.app.spread import spread
 from granum.app.telling import Tell
@@ -304,6 +305,16 @@ def exercise(payload: dict[str, Any], _tell: Tell) -> bytes:
     return packed(exercises.worked(payload["name"], payload["seed"]))
 
 
+def answers(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """What is right at every step of an exercise."""
+    return packed({"answers": worked_answers.answers(payload["name"], payload["seed"])})
+
+
+def answer_sheet(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The answers of many students as CSV."""
+    return worked_answers.sheet(payload["name"], payload["first"], payload["last"]).encode()
+
+
 def mark(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The verdict on the answer to a step of an exercise."""
     return packed(marked(payload["name"], payload["step"], payload["seed"], payload["answer"]))
@@ -340,6 +351,8 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
         study_choices,
         study,
         exercise,
+        answers,
+        answer_sheet,
         mark,
         rest,
         fill,

@@ -106,23 +106,42 @@ def worked(name: str, seed: int | None = None) -> dict[str, Any]:
 
 
 def _step(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]:
+    told = {
+        "ask": filled_text(step["ask"], numbers),
+        "hint": filled_text(step.get("hint", ""), numbers),
+        "erratum": step.get("erratum", ""),
+        "choices": [
+            {"key": key, "says": filled_text(step["choices"][key]["says"], numbers)}
+            for key in numbers.order(place)
+        ],
+    }
+    return told | (_chosen(step) if told["choices"] else _asked(step, place, numbers))
+
+
+def _chosen(step: dict[str, Any]) -> dict[str, Any]:
+    """What a step tells whose answer is chosen: the card that its subject is, where there is one."""
+    card = registry.find(step["card"]).card if "card" in step else None
+    return {"card": card.key, "sort": card.sort, "title": card.title} if card else {"card": ""}
+
+
+def _asked(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]:
+    """What a step tells whose answer is a number that its card computes."""
     card = registry.find(step["card"]).card
     asked = step["expected"]
     printed = asked.get("value", asked.get("misprint")) if numbers.seed is None else None
     return {
-        "ask": filled_text(step["ask"], numbers),
         "card": step["card"],
+        "sort": card.sort,
         "title": card.title,
+        "unit": asked["unit"],
         "inputs": numbers.inputs(place),
         "output": asked["output"],
         "label": card.parameter(asked["output"]).label,
         "quantity": card.parameter(asked["output"]).as_json()
         | {"example": {"number": "", "unit": asked["unit"].replace("%", "percent")}},
-        "hint": filled_text(step.get("hint", ""), numbers),
         "equation": mathml(card.equation, display=True) if card.equation else "",
         "printed": ""
         if printed is None
         else f"{format_number(printed)} {pretty_unit(asked['unit'])}".strip(),
         "remark": step.get("remark", "") if numbers.seed is None else "",
-        "erratum": step.get("erratum", ""),
     }

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from granum.app import exercises
-from granum.app.exercises.numbers import Numbers
+from granum.app.exercises.numbers import Numbers, filled_text
 from granum.app.wording import told
 from granum.core import registry
 from granum.core.conversion import convert
@@ -26,10 +26,13 @@ def tolerance_of(step: dict[str, Any], right: float) -> float:
 
 
 def marked(name: str, number: int, seed: int | None, answer: str) -> dict[str, Any]:
-    """The verdict on an answer typed as a quantity: ``right``, ``wrong``, or ``unclear`` when it cannot be
-    read, with a sentence that says why.
+    """The verdict on an answer typed as a quantity, or on the number of what was chosen.
+
+    It is ``right``, ``wrong``, or ``unclear`` when it cannot be read, with a sentence that says why.
     """
     step = exercises.step_of(name, number)
+    if "choices" in step:
+        return _chosen(step, Numbers(exercises.exercise(name), seed), answer)
     asked = step["expected"]
     parameter = registry.find(step["card"]).card.parameter(asked["output"])
     assert parameter.kind is not None
@@ -47,6 +50,16 @@ def marked(name: str, number: int, seed: int | None, answer: str) -> dict[str, A
         if abs(given - value) <= 0.015 * abs(value):
             return {"verdict": "wrong", "text": exercises.in_language(slip["says"])}
     return {"verdict": "wrong", "text": _told(given, right, tolerance_of(step, right))}
+
+
+def _chosen(step: dict[str, Any], numbers: Numbers, answer: str) -> dict[str, Any]:
+    """The verdict on a choice, with its reason."""
+    choices = step["choices"]
+    if answer not in {str(key) for key in range(len(choices))}:
+        return {"verdict": "unclear", "text": _("Choose one of the answers.")}
+    taken = choices[int(answer)]
+    verdict = "right" if taken.get("right") else "wrong"
+    return {"verdict": verdict, "text": filled_text(exercises.in_language(taken["why"]), numbers)}
 
 
 def slips(numbers: Numbers, place: int, right: float) -> list[tuple[dict[str, Any], float]]:

@@ -39,6 +39,12 @@ class Numbers:
         value = chance.uniform(draw["from"], draw["to"])
         return float(f"{value:.{draw.get('digits', 2)}g}"), draw["unit"]
 
+    def order(self, place: int) -> list[int]:
+        """The choices of a step in the order in which they are shown, another one for each seed."""
+        keys = list(range(len(self.exercise["steps"][place].get("choices", []))))
+        random.Random(f"{self.exercise['id']} {place} {self.seed}").shuffle(keys)
+        return keys
+
     def result(self, place: int) -> tuple[float, str]:
         """The result of a step, counted from 0, with its unit."""
         asked = self.exercise["steps"][place]["expected"]

@@ -1,8 +1,8 @@
 // Exercises: statement, numbers, an answer of one's own for each step, marked at once; hint, then answer; quizzes under them.
-import { html, t, ask, link, useAnswer, useKept, useState, settings, Working } from './core.js';
+import { html, t, ask, link, useAnswer, settings, Working } from './core.js';
 import { Quiz } from './quiz.js';
-import { Quantity } from './quantity.js';
-import { note, done, exported, useProgress } from './progress.js';
+import { Step } from './exercise_step.js';
+import { done, exported, useProgress } from './progress.js';
 
 export function Exercises({ state }) {
   const { data, error } = useAnswer(() => ask('/api/exercises'), [settings.language, settings.units], 0);
@@ -57,70 +57,4 @@ function Exercise({ name, seed, progress }) {
     ${exercise.fresh && html`<div class="row"><button class="button" onClick=${fresh}>${t('Other numbers')}</button>${seed !== null && html` <a href=${link('exercises', name)}>${t('Back to the first numbers')}</a>`}</div>`}
     <ol class="steps">${exercise.steps.map((step, i) => html`<${Step} key=${i} name=${name} place=${i} seed=${seed} step=${step} record=${progress[name]?.[i]} />`)}</ol>
     <p class="small dim">${exercise.source}</p></section>`;
-}
-
-function Step({ name, place, seed, step, record }) {
-  const [kept, keep] = useKept(`answer ${name} ${place} ${seed ?? ''}`, { text: '', verdict: null });
-  const said =
-    kept.verdict && (kept.language === settings.language ? kept.verdict.text : t(kept.verdict.verdict));
-  const [hint, setHint] = useState(false);
-  const [open, setOpen] = useState(false);
-  const [busy, setBusy] = useState(false);
-  const [problem, setProblem] = useState('');
-  const calculated = useAnswer(
-    (signal) => (open ? ask(`/api/calc/${step.card}`, step.inputs, { signal }) : Promise.resolve(null)),
-    [open],
-    0,
-  );
-  const row = calculated.data?.shown.find((r) => r.name === step.output);
-  const right = kept.verdict?.verdict === 'right';
-  const check = async () => {
-    if (!kept.text.trim() || busy) return;
-    setBusy(true);
-    setProblem('');
-    try {
-      const verdict = await ask(`/api/exercises/${encodeURIComponent(name)}`, {
-        step: place,
-        answer: kept.text,
-        seed,
-      });
-      keep({ text: kept.text, verdict, language: settings.language });
-      if (verdict.verdict !== 'unclear')
-        note(name, place, { right: verdict.verdict === 'right', answer: kept.text, seed });
-    } catch (fault) {
-      setProblem(fault.message);
-    }
-    setBusy(false);
-  };
-  const reveal = () => {
-    if (!open && !right) note(name, place, { shown: true, seed });
-    setOpen(!open);
-  };
-  return html`<li data-step=${place}><h2>${step.ask}</h2>
-    <form class="row reply" onSubmit=${(e) => {
-      e.preventDefault();
-      check();
-    }}><${Quantity} p=${step.quantity} label=${step.label} text=${kept.text} onChange=${(text) => keep({ text, verdict: null })} />
-      <button class="button main" disabled=${!kept.text.trim() || busy}>${t('Check')}</button>
-      <button type="button" class="button" aria-expanded=${String(hint)} onClick=${() => setHint(!hint)}>${t('Hint')}</button>
-      <button type="button" class="button" aria-expanded=${String(open)} onClick=${reveal}>${open ? t('Hide the answer') : t('Show the answer')}</button></form>
-    <p role="status" data-verdict=${kept.verdict?.verdict ?? ''} class=${`mark ${right ? 'ok' : 'out'}`}>${kept.verdict && `${right ? '✓' : '✗'} ${said}`}</p>
-    ${problem && html`<p class="message out" role="alert">${problem}</p>`}
-    ${!kept.verdict && record?.right && html`<p class="small ok">✓ ${t('Solved before.')}</p>`}
-    ${hint && html`<div class="card" data-hint>${step.hint && html`<p>${step.hint}</p>`}<div class="dim">${step.title}</div>${step.equation && html`<${Equation} shown=${step.equation} />`}</div>`}
-    ${open && html`<div class="card" data-answer>${calculated.error && html`<p class="message out">${calculated.error.message}</p>`}<${Working} busy=${calculated.pending} cancel=${calculated.cancel} job=${calculated.job} />${row && html`<${Answer} step=${step} row=${row} data=${calculated.data} />`}</div>`}
-    ${(right || open) && step.erratum && html`<p class="message caution small" data-erratum>${step.erratum}</p>`}</li>`;
-}
-
-const Equation = ({ shown }) =>
-  html`<div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: shown }} />`;
-
-function Answer({ step, row, data }) {
-  const apart = settings.language === 'fr' ? ' ; ' : '; ';
-  return html`<p class="result" data-output=${row.name}><span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = <strong>${row.text}</strong></p>
-    ${step.printed && html`<p class="small" data-printed>${t('Printed in the course: {value}', { value: step.printed })}</p>`}
-    ${step.remark && html`<p class="small dim">${step.remark}</p>`}
-    <div class="dim">${step.title}</div>${data.equation && html`<${Equation} shown=${data.equation} />`}
-    <p class="small">${data.inputs_shown.map((r, i) => html`${i > 0 ? apart : ''}<span class="pair"><span dangerouslySetInnerHTML=${{ __html: r.symbol }} /> = ${r.text}</span>`)}</p>
-    <p class="small"><a href=${link('calculate', step.card, step.inputs)}>${t('Open in Calculate')}</a></p>`;
 }

@@ -1,0 +1,32 @@
+// A result over one of its inputs: the chart beside a number, on Calculate and under an exercise.
+import { html, t, ask, useAnswer, useRef } from './core.js';
+import { Plot } from './plot.js';
+
+/** The result over one input; asked for when the number itself stands, so that it never waits for this. */
+export function Sensitivity({ card, values, old, units, laws, choice, setChoice, none = '' }) {
+  const fresh = useRef(null);
+  if (!old) fresh.current = values;
+  const asked = fresh.current && {
+    inputs: fresh.current,
+    against: choice.against || '',
+    output: choice.output || '',
+    unit: units[choice.output || card.outputs[0]?.name] || '',
+    laws: laws && card.sort === 'formula',
+  };
+  const { data, error, pending } = useAnswer(
+    (signal) => (asked ? ask(`/api/sensitivity/${card.card}`, asked, { signal }) : Promise.resolve(null)),
+    [JSON.stringify(asked)],
+    120,
+  );
+  if (none && (error || (data && !data.figure))) return html`<p class="small dim">${none}</p>`;
+  if (!data?.figure || error) return null;
+  const menu = (name, label, list, chosen) =>
+    list.length > 1 &&
+    html`<label class="small">${label} <select data-menu=${name} value=${chosen} onChange=${(e) => setChoice({ ...choice, [name]: e.target.value })}>${list.map((p) => html`<option value=${p.name} selected=${p.name === chosen}>${p.label}</option>`)}</select></label>`;
+  return html`<section class=${pending && !old ? 'sensitivity stale' : 'sensitivity'} aria-label=${t('Sensitivity')} data-sensitivity=${data.against}>
+    <div class="row"><h2>${t('How it changes')}</h2>${menu('output', t('Draw'), data.outputs, data.output)} ${menu('against', t('over'), data.inputs, data.against)}</div>
+    <p class="spoken">${data.spoken}</p>
+    <${Plot} figure=${data.figure} label=${data.spoken} name=${`${card.card}-${data.against}`} />
+    ${data.covered && html`<p class="small dim">${t('Shaded: what the source covers.')}</p>`}
+    ${laws && card.sort === 'formula' && data.figure.data.length > 2 && html`<p class="small dim">${t('Thin lines: other laws.')}</p>`}</section>`;
+}
