@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from granum.core.i18n import language
+from granum.core.i18n import current_language, language
 from granum.core.unit_names import parse_unit, registry
 from granum.reports.stated import STATED, Number, stated_number
 
@@ -21,6 +21,11 @@ ROOT = DOCS.parent
 KEPT = ROOT / ".cache" / "handbook"
 PLACES = {"en": "handbook/{}.md", "fr": "fr/manuel/{}.md"}
 LOOKED_AT = ("src/granum/**/*.py", "src/granum/**/*.toml", "src/granum/**/*.csv", "src/granum/**/*.po")
+
+
+def said(english: str, french: str) -> str:
+    """Words of a figure in the language it is drawn in."""
+    return french if current_language() == "fr" else english
 
 
 def domains() -> list[str]:
