@@ -37,6 +37,7 @@ from granum.reports.quantities import (
     statistics_rows,
     value_text,
 )
+from granum.reports.sankey import diagrams
 from granum.reports.streams import audit_text, stream_figures, stream_look, stream_sheet
 from granum.reports.utilities import utility_table
 from granum.studies.intervals import intervals, split
@@ -269,6 +270,7 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
             "diagram": outcome.drawing(),
             "stream_table": stream_sheet(outcome),
             "utility_table": utility_table(outcome),
+            "sankey": diagrams(outcome) if len(outcome.units) > 1 else [],
             "found": found_rows(outcome),
         }
     )

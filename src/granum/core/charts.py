@@ -17,6 +17,7 @@ from granum.core.units import pretty_unit
 INK, GRID, ACCENT = "#1c2430", "#e6e9ee", "#0b6e6e"
 SOLID, LIQUID, GAS, HEAT = "#b7791f", "#2b6cb0", "#6b7f99", "#c2410c"
 OK, CAUTION, OUT = "#2f855a", "#b45309", "#b91c1c"
+OUTSIDE = "#8a94a3"  # of what lies outside a diagram
 LINES = (ACCENT, SOLID, LIQUID, HEAT, "#6b46c1", GAS, OK, "#97266d", CAUTION, "#2c5282")
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash")
 
@@ -144,10 +145,19 @@ def add_line(
     _mark_short_decades(chart)
 
 
+def faded(color: str, opacity: float = 0.45) -> str:
+    """A color that lets others shine through.
+
+    >>> faded("#b7791f")
+    'rgba(183,121,31,0.45)'
+    """
+    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    return f"rgba({red},{green},{blue},{opacity})"
+
+
 def add_band(chart: go.Figure, x: Any, low: Any, high: Any, name: str, *, color: str = ACCENT) -> None:
     """A 95 % band between two curves."""
-    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
-    fill = f"rgba({red},{green},{blue},0.15)"
+    fill = faded(color, 0.15)
     chart.add_trace(
         go.Scatter(x=x, y=high, mode="lines", line={"width": 0}, showlegend=False, hoverinfo="skip")
     )

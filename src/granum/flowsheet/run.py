@@ -335,6 +335,14 @@ class Run:
         """The flow diagram with its streams as SVG."""
         return draw(self.sheet, self.streams)
 
+    def sankey(self, of: str = "mass") -> Any:
+        """Sankey diagram of the streams as a Plotly figure: of ``mass`` by phase, of ``energy`` with heat and
+        work, or of one component by its name.
+        """
+        from granum.reports.sankey import sankey
+
+        return sankey(self, of)
+
     def schedule(self) -> Schedule:
         """The cycles of the batch units, with a Gantt chart."""
         return schedule({name: (u.model, u.values) for name, u in self.units.items()})

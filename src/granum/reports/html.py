@@ -30,6 +30,7 @@ from granum.reports.quantities import (
     statistics_text,
     value_text,
 )
+from granum.reports.sankey import ENERGY, sankey
 from granum.reports.streams import audit_text, stream_table
 from granum.reports.utilities import utility_table
 from granum.streams.stream import main_phase
@@ -177,14 +178,15 @@ def _charts(run: Any) -> list[tuple[str, str]]:
     """Headings and charts of a report; the first carries Plotly."""
     cycles = run.schedule()
     found = {
+        _("Flow of mass"): sankey(run),
+        _("Flow of energy"): sankey(run, ENERGY),
         _("Particle sizes"): size_chart(run),
         _("Run in time"): course_chart(run),
         _("Schedule of the batches"): cycles.chart() if cycles.cycles else None,
     }
-    found |= {
-        heading: figure.update_layout(title_text="", margin_t=30) for heading, figure in run.charts().items()
-    }
-    drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
+    drawn = [(heading, figure) for heading, figure in (found | run.charts()).items() if figure is not None]
+    for _heading, figure in drawn:
+        figure.update_layout(title_text="", margin_t=30)
     return [(heading, charts.as_html(figure, plotly=i == 0)) for i, (heading, figure) in enumerate(drawn)]
 
 

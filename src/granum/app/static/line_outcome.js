@@ -2,6 +2,7 @@
 import { colon, html, t } from './core.js';
 import { StreamTable } from './line_streams.js';
 import { pretty } from './line_forms.js';
+import { Sankey } from './sankey.js';
 import { Utilities } from './utilities.js';
 
 export function Outcome({ data, cases, clear, choose, place, text, compared, labels }) {
@@ -23,6 +24,7 @@ export function Outcome({ data, cases, clear, choose, place, text, compared, lab
     ${compared && html`<${Comparison} cases=${cases} clear=${clear} />`}
     <${StreamTable} table=${data.stream_table} place=${place} text=${text} choose=${choose} labels=${labels} />
     <${Utilities} table=${data.utility_table} />
+    <${Sankey} diagrams=${data.sankey} />
     <h2>${t('Equipment')}</h2>${units.map(([name, unit]) => html`<details key=${name} data-sheet=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${unit.title || unit.model}</span>${unit.checks.some((c) => !c.ok) && html` <span class="out">✗</span>`}</summary><${UnitFigures} name=${name} unit=${unit} cases=${cases} /></details>`)}`;
 }
 

@@ -51,6 +51,10 @@ const DARK = {
   '#97266d': '#de7fb9',
   '#2c5282': '#7aa5dd',
   'rgba(11,110,110,0.08)': 'rgba(79,179,174,0.16)',
+  'rgba(183,121,31,0.45)': 'rgba(217,162,75,0.5)',
+  'rgba(43,108,176,0.45)': 'rgba(107,166,224,0.5)',
+  'rgba(107,127,153,0.45)': 'rgba(157,176,198,0.5)',
+  'rgba(194,65,12,0.45)': 'rgba(238,138,92,0.5)',
   'rgba(255,255,255,0.8)': 'rgba(26,33,41,0.8)',
   'rgba(255,255,255,0.85)': 'rgba(26,33,41,0.85)',
 };
@@ -203,6 +207,7 @@ export const decoded = (values) =>
 
 /** The numbers of a chart: a row for each point, with the curve it lies on. */
 function numbers({ data, layout }) {
+  if (data[0]?.type === 'sankey') return widths(data[0]);
   const x = axisText(layout.xaxis, 'x');
   const y = axisText(layout.yaxis, 'y');
   const flat = (values) => Array.isArray(values) && values.every((v) => !Array.isArray(v));
@@ -215,6 +220,13 @@ function numbers({ data, layout }) {
     .flatMap((trace) => trace.x.map((at, i) => [trace.name, at, trace.y[i]]))
     .filter(([, at, value]) => at !== null && value !== null && value !== undefined);
   return { heads: [t('Curve'), x, y], rows };
+}
+
+/** The numbers of a Sankey diagram: what flows from where to where. */
+function widths({ node, link, valuesuffix }) {
+  const [from, to, values] = [link.source, link.target, link.value].map(decoded);
+  const rows = values.map((value, i) => [link.label[i], node.label[from[i]], node.label[to[i]], value]);
+  return { heads: [t('flow'), t('from'), t('to'), (valuesuffix ?? '').trim()], rows };
 }
 
 const quoted = (cell) => (/[",\n]/.test(String(cell)) ? `"${String(cell).replaceAll('"', '""')}"` : cell);

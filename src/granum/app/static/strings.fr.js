@@ -161,6 +161,11 @@ export const french = {
   '95 % interval': 'intervalle à 95 %',
   'unit': 'unité',
   'Utilities': 'Utilités',
+  'Sankey diagram': 'Diagramme de Sankey',
+  'Solid, liquid and gas have their colors; heat and work are red.':
+    'Solide, liquide et gaz ont leurs couleurs ; chaleur et travail sont en rouge.',
+  'Energy counts from liquid water and dry substances at 25 °C, so that vapor carries its heat of vaporization; what is colder is drawn the other way.':
+    'L’énergie se compte à partir de l’eau liquide et des substances sèches à 25 °C, si bien que la vapeur porte sa chaleur de vaporisation ; ce qui est plus froid est tracé à rebours.',
   'utility': 'utilité',
   'whole line': 'ligne entière',
   'Product: {stream}. In brackets: given by another unit of the line, and not counted.':
@@ -344,6 +349,8 @@ export const french = {
   'uniform': 'uniforme',
   'mean': 'moyenne',
   'standard deviation': 'écart type',
+  'Show': 'Montrer',
+  'flow': 'flux',
   'from': 'de',
   'to': 'à',
   'steps': 'nombre de points',
