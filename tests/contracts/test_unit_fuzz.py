@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.contracts import evaporator_cases, unit_cases
+from tests.contracts import evaporator_cases, membrane_cases, unit_cases
 from tests.contracts.unit_search import EMPTY, Case, Tried, disordered, rows, tried, wrong
 from tests.sharing.samples import SAMPLES
 
@@ -20,6 +20,7 @@ GROUPS = {
     "basics": unit_cases.basics,
     "crystallizers": unit_cases.crystallizers,
     "evaporators": evaporator_cases.evaporators,
+    "membranes": membrane_cases.membranes,
 }
 QUICK = (
     "mill plug",
@@ -33,6 +34,8 @@ QUICK = (
     "evaporator",
     "recompression",
     "train",
+    "ultrafiltration",
+    "osmosis",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

@@ -55,7 +55,7 @@ def mixture_of(
     carrier = carrier_of(gases, liquids[0] if liquids else None) or next(iter(gases), None)
     known = session().with_files(own)
     systems = {
-        name: system for name in liquids[1:] if (system := _system(known, name, liquids[0])) is not None
+        name: system for name in liquids[1:] if (system := solute_system(known, name, liquids[0])) is not None
     }
     return Mixture(
         solids=tuple(_crystal(name, systems) or _inert(known, name) for name in solids),
@@ -72,13 +72,23 @@ def mixture_of(
     )
 
 
-def _system(known: Library, name: str, solvent: str) -> SoluteSystem | None:
+def solute_system(known: Library, name: str, solvent: str) -> SoluteSystem | None:
+    """What the library knows of a solute in a solvent; None where it is a liquid of its own."""
     for candidate in (name, f"{name} in {solvent}"):
         if candidate in known.names("solute"):
             found = known.solute(candidate)
             if found.solvent.name == solvent:
                 return found
     return None
+
+
+def activity_laws(mixture: Mixture) -> list[Any]:
+    """The law of the activity of the solvent for each further liquid of a mixture; None where the library has
+    none.
+    """
+    solvent, *others = (s.name for s in mixture.liquids)
+    systems = [solute_system(mixture.materials, name, solvent) for name in others]
+    return [s.activity_law if s and not s.activity_law.is_missing else None for s in systems]
 
 
 def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[float, ...]:
@@ -215,7 +225,7 @@ class SolutionViscosity:
             if i == 0:
                 continue
             if name in self.solutes:
-                system = _system(self.materials, name, self.liquids[0])
+                system = solute_system(self.materials, name, self.liquids[0])
                 if system is None:
                     raise InputError(
                         _("'{name}' is not a solute in '{solvent}'.").format(
