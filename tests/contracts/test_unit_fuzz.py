@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.contracts import crystallizer_cases, evaporator_cases, unit_cases
+from tests.contracts import crystallizer_cases, evaporator_cases, membrane_cases, unit_cases
 from tests.contracts.unit_search import EMPTY, Case, Tried, disordered, rows, tried, wrong
 from tests.sharing.samples import SAMPLES
 
@@ -21,6 +21,7 @@ GROUPS = {
     "crystallizers": unit_cases.crystallizers,
     "evaporators": evaporator_cases.evaporators,
     "mixed": crystallizer_cases.mixed,
+    "membranes": membrane_cases.membranes,
 }
 QUICK = (
     "mill plug",
@@ -35,6 +36,8 @@ QUICK = (
     "recompression",
     "train",
     "drowned",
+    "ultrafiltration",
+    "osmosis",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

@@ -388,6 +388,12 @@ def data(key: str) -> Data:
             {"pressure_drop": 1e5, "dynamic_viscosity": 1e-3, "void_fraction": 0.45, "cake_thickness": 0.02},
             "cake_saturation",
         ),
+        "blocking_test": lambda: Data(
+            {"time": t[1:], "filtrate_volume": 2e-7 * 600.0 * np.log1p(t[1:] / 600.0)},
+            {"blocking_law": "intermediate"},
+            "filtrate_volume",
+            0.003,
+        ),
         "expression_test": lambda: Data(
             {
                 "time": t,

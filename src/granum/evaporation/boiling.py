@@ -15,10 +15,10 @@ from granum.core.errors import CaseError
 from granum.core.i18n import _
 from granum.crystallization.equipment.roles import Roles, roles, with_crystals
 from granum.materials.fluids import Fluid
-from granum.materials.solutes import SoluteSystem
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
+from granum.streams.from_materials import activity_laws, solute_system
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
@@ -63,7 +63,7 @@ class Liquor:
         m = self.mixture
         if not m.liquids or m.liquids[0].name not in [g.name for g in m.gases]:
             raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
-        if self.elevation is None and len(m.liquids) > 1 and not any(self._laws()):
+        if self.elevation is None and len(m.liquids) > 1 and not any(activity_laws(m)):
             raise CaseError(
                 _(
                     "The library has no water activity of {solutes}: give 'elevation_linear' and "
@@ -71,17 +71,6 @@ class Liquor:
                     "dissolved."
                 ).format(solutes=", ".join(s.name for s in m.liquids[1:]))
             )
-
-    def _system(self, name: str) -> SoluteSystem | None:
-        known, solvent = self.mixture.materials, self.mixture.liquids[0].name
-        for candidate in (name, f"{name} in {solvent}"):
-            if candidate in known.names("solute") and known.solute(candidate).solvent.name == solvent:
-                return known.solute(candidate)
-        return None
-
-    def _laws(self) -> list[Any]:
-        systems = [self._system(s.name) for s in self.mixture.liquids[1:]]
-        return [s.activity_law if s and not s.activity_law.is_missing else None for s in systems]
 
     @property
     def solvent(self) -> Fluid:
@@ -113,7 +102,7 @@ class Liquor:
         for solid in m.solids:
             if dissolved & {name for name, _share in solid.composition}:
                 found = roles(m, solid.name, "")
-                system = self._system(m.liquids[found.solute].name)
+                system = solute_system(m.materials, m.liquids[found.solute].name, self.solvent.name)
                 if system is not None:
                     return found, system.branch(solid.name).value
         return None
@@ -127,7 +116,7 @@ class Liquor:
             w = 1.0 - safe_divide(liquid[0], jnp.sum(liquid), 1.0)
             return T - pure - self.elevation[0] * w - self.elevation[1] * w**2
         raised = jnp.log(self.vapor_pressure(T)) - jnp.log(self.vapor_pressure(pure))
-        for i, law in enumerate(self._laws(), start=1):
+        for i, law in enumerate(activity_laws(self.mixture), start=1):
             if law is not None:
                 raised = raised + jnp.log(law(T, liquid[i] / solvent))
         return raised

@@ -36,9 +36,19 @@ from granum.filtration.equipment.deep_bed import (
     DeepBedOutlets as DeepBedOutlets,
     FilterRun as FilterRun,
 )
+from granum.filtration.equipment.membranes import (
+    MembraneFigures as MembraneFigures,
+    OsmosisFigures as OsmosisFigures,
+    Parted as Parted,
+    ReverseOsmosis as ReverseOsmosis,
+    Ultrafiltration as Ultrafiltration,
+)
 from granum.filtration.formulas.backwash import (
     backwash_velocity as backwash_velocity,
     head_loss_backwash as head_loss_backwash,
+)
+from granum.filtration.formulas.blocking import (
+    filtrate_volume_blocking as filtrate_volume_blocking,
 )
 from granum.filtration.formulas.compressible import (
     CakeProfile as CakeProfile,
@@ -104,6 +114,17 @@ from granum.filtration.formulas.mass_balance import (
     void_fraction_cake as void_fraction_cake,
     wet_to_dry_mass_ratio as wet_to_dry_mass_ratio,
 )
+from granum.filtration.formulas.membrane_transport import (
+    mass_transfer_coefficient_channel as mass_transfer_coefficient_channel,
+    molecule_diameter as molecule_diameter,
+    osmotic_pressure_activity as osmotic_pressure_activity,
+    polarization_modulus as polarization_modulus,
+    pore_diameter_cut_off as pore_diameter_cut_off,
+    rejection_ferry as rejection_ferry,
+    rejection_observed as rejection_observed,
+    solute_remaining_diafiltration as solute_remaining_diafiltration,
+    solute_remaining_diafiltration_stages as solute_remaining_diafiltration_stages,
+)
 from granum.filtration.formulas.membranes import (
     concentration_retentate_batch as concentration_retentate_batch,
     filtrate_flux_limiting as filtrate_flux_limiting,
@@ -138,6 +159,9 @@ from granum.filtration.formulas.washing import (
     solute_remaining_reslurry as solute_remaining_reslurry,
     wash_effluent_concentration as wash_effluent_concentration,
 )
+from granum.filtration.lab_tests.blocking import (
+    BlockingTest as BlockingTest,
+)
 from granum.filtration.lab_tests.cake_tests import (
     CompressionCell as CompressionCell,
     DeliquoringCurve as DeliquoringCurve,
@@ -162,6 +186,11 @@ from granum.filtration.lab_tests.slurry import (
 )
 from granum.filtration.lab_tests.stepped import (
     SteppedPressureTest as SteppedPressureTest,
+)
+from granum.filtration.membranes import (
+    Membrane as Membrane,
+    Osmosis as Osmosis,
+    Staged as Staged,
 )
 from granum.filtration.selection import (
     Separators as Separators,

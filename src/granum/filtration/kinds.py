@@ -22,3 +22,4 @@ PressureTimePerVolume = Annotated[Any, Kind("pressure impulse per volume", "Pa*s
 HeadLossPerDeposit = Annotated[Any, Kind("head loss per mass deposited per area", "m^3/kg", lower=0.0)]
 ResidualDrag = Annotated[Any, Kind("pressure drop per velocity", "Pa*s/m", lower=0.0, display=("Pa*min/m",))]
 DustResistance = Annotated[Any, Kind("resistance of a dust cake", "1/s", lower=0.0)]
+EnergyPerVolume = Annotated[Any, Kind("energy per volume", "J/m^3", lower=0.0, display=("kWh/m^3", "kJ/m^3"))]

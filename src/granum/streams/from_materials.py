@@ -54,7 +54,9 @@ def mixture_of(
     """
     carrier = carrier_of(gases, liquids[0] if liquids else None) or next(iter(gases), None)
     known = session().with_files(own)
-    systems = {name: system for name in liquids[1:] if (system := _system(known, name, liquids)) is not None}
+    systems = {
+        name: system for name in liquids[1:] if (system := solute_system(known, name, liquids)) is not None
+    }
     return Mixture(
         solids=tuple(_crystal(name, systems) or _inert(known, name) for name in solids),
         liquids=tuple(
@@ -70,13 +72,24 @@ def mixture_of(
     )
 
 
-def _system(known: Library, name: str, liquids: Sequence[str]) -> SoluteSystem | None:
-    """The solute of that name in the first of the liquids that the library knows it in."""
-    for solvent in liquids:
+def solute_system(known: Library, name: str, solvents: Sequence[str]) -> SoluteSystem | None:
+    """The solute of that name in the first of the solvents that the library knows it in; None where it is a
+    liquid of its own.
+    """
+    for solvent in solvents:
         for candidate in (name, f"{name} in {solvent}"):
             if candidate in known.names("solute") and known.solute(candidate).solvent.name == solvent:
                 return known.solute(candidate)
     return None
+
+
+def activity_laws(mixture: Mixture) -> list[Any]:
+    """The law of the activity of the solvent for each further liquid of a mixture; None where the library has
+    none.
+    """
+    solvent, *others = (s.name for s in mixture.liquids)
+    systems = [solute_system(mixture.materials, name, (solvent,)) for name in others]
+    return [s.activity_law if s and not s.activity_law.is_missing else None for s in systems]
 
 
 def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[float, ...]:
@@ -214,7 +227,7 @@ class SolutionViscosity:
             if i == 0:
                 continue
             if name in self.solutes:
-                system = _system(self.materials, name, self.liquids)
+                system = solute_system(self.materials, name, self.liquids)
                 if system is None:
                     raise InputError(
                         _("'{name}' is not a solute in '{solvent}'.").format(

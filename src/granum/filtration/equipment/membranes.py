@@ -1,0 +1,354 @@
+"""Membrane plants: ultrafiltration and microfiltration in feed-and-bleed stages, reverse osmosis."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.errors import CaseError
+from granum.core.flags import unsolved
+from granum.core.i18n import _
+from granum.core.kinds import (
+    Area,
+    Concentration,
+    Fraction,
+    Length,
+    MassTransferCoefficient,
+    MediumResistance,
+    Permeance,
+    PositiveNumber,
+    Power,
+    Pressure,
+    PressureDrop,
+    Speed,
+    VolumeFlow,
+    Within,
+)
+from granum.core.limits import Limit
+from granum.filtration.formulas.membrane_transport import molecule_diameter, rejection_ferry
+from granum.filtration.formulas.membranes import rejection_solution_diffusion
+from granum.filtration.kinds import EnergyPerVolume
+from granum.filtration.membranes import Membrane, Staged, matter, staged
+from granum.numerics.smooth import safe_divide
+from granum.streams.formulas.drives import shaft_power_incompressible
+from granum.streams.stream import Stream
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA, PUMP, PUMPED, driven
+
+SOURCE = "cheryan1998"
+HELD = (
+    "Nothing permeates: the feed holds as much osmotic pressure or as much matter at the membrane as the "
+    "pressure overcomes. Give a higher pressure, a thinner feed or more fresh solvent."
+)
+EMPTIED = (
+    "The membrane would take more liquid than there is: give more feed, a smaller area, a lower pressure or "
+    "a membrane of a higher resistance."
+)
+Resistance = Annotated[MediumResistance, Within(1e8)]
+Efficiency = Annotated[PositiveNumber, Within(0.01, 1.0)]
+
+
+class Parted(NamedTuple):
+    """What the membrane holds back and what passes it, and the shaft power of the pumps, which warms both."""
+
+    retentate: Stream
+    permeate: Stream
+    shaft_power: Any
+
+
+class MembraneFigures(NamedTuple):
+    """Figures of a membrane plant."""
+
+    filtrate_flux: Speed
+    filtrate_flux_last: Speed
+    filtrate_flow: VolumeFlow
+    volume_concentration_factor: PositiveNumber
+    polarization_modulus: PositiveNumber
+    osmotic_pressure: Pressure
+    concentration_retentate: Concentration
+    solids_recovery: Fraction
+    shaft_power: Power
+    energy_per_filtrate: EnergyPerVolume
+
+
+class OsmosisFigures(NamedTuple):
+    """Figures of a reverse osmosis plant."""
+
+    filtrate_flux: Speed
+    filtrate_flux_last: Speed
+    filtrate_flow: VolumeFlow
+    water_recovery: Fraction
+    polarization_modulus: PositiveNumber
+    osmotic_pressure: Pressure
+    rejection: Fraction
+    shaft_power: Power
+    energy_per_filtrate: EnergyPerVolume
+
+
+class _Plant(Unit):
+    """Mixed stages of equal area in series; each is fed with the retentate of the one before."""
+
+    area: Area
+    pressure_drop: PressureDrop
+
+    utilities: ClassVar[Utilities] = PUMPED | AREA
+
+    def chain(
+        self, feed: Stream, membrane: Membrane, count: int, fresh: Stream | None = None
+    ) -> list[Staged]:
+        """The stages one after the other, fresh solvent in equal parts into each."""
+        stages: list[Staged] = []
+        for _stage in range(count):
+            if fresh is not None:
+                feed = feed + fresh.part(solid=1.0 / count, liquid=1.0 / count, gas=1.0 / count)
+            stages.append(staged(feed, membrane))
+            feed = stages[-1].retentate
+        card = type(self).card
+        driven_, found = (jnp.all(jnp.stack([getattr(s, x) for s in stages])) for x in ("driven", "found"))
+        unsolved(driven_, card, reason=HELD)
+        unsolved(found, card, reason=EMPTIED)
+        return stages
+
+    def joined(self, stages: list[Staged], entering: Any, power: Any) -> Parted:
+        """Retentate and permeate at the temperature that the enthalpy of what entered and the pumps give."""
+        retentate, permeate = stages[-1].retentate, stages[0].permeate
+        for stage in stages[1:]:
+            permeate = permeate.replace(
+                solid=permeate.solid + stage.permeate.solid, liquid=permeate.liquid + stage.permeate.liquid
+            )
+        whole = retentate.replace(
+            solid=retentate.solid + permeate.solid, liquid=retentate.liquid + permeate.liquid
+        )
+        there = whole.at_enthalpy(entering + power)
+        return Parted(
+            retentate.replace(temperature=there.temperature),
+            permeate.replace(temperature=there.temperature),
+            power,
+        )
+
+    def flux(self, stages: list[Staged]) -> tuple[Any, Any, Any]:
+        """Mean and last flux, and the permeate of all stages, m³/s."""
+        fluxes = jnp.stack([s.flux for s in stages])
+        return jnp.mean(fluxes), fluxes[-1], jnp.mean(fluxes) * self.area
+
+
+def _greatest(stages: list[Staged]) -> Any:
+    """Polarization modulus, of all stages."""
+    return jnp.max(jnp.stack([s.modulus for s in stages]))
+
+
+def _dissolved(stream: Stream) -> Any:
+    """Of the liquid, by mass, beside the solvent."""
+    return safe_divide(jnp.sum(stream.liquid[1:]), stream.liquid_flow, 0.0)
+
+
+@equipment(
+    "ultrafiltration",
+    source=SOURCE,
+    title="Ultrafiltration or microfiltration plant",
+    equation=(
+        r"u = \min\left[\frac{\Delta p - \Delta\pi}{\eta\,(R_s + R_f)},\ k\,\ln\frac{c_g}{c}\right],"
+        r"\qquad R = \left[\frac{d}{d_p}\left(2 - \frac{d}{d_p}\right)\right]^2"
+    ),
+)
+class Ultrafiltration(_Plant):
+    """Feed-and-bleed stages of equal area: each circulates what it holds past its membrane and bleeds it to
+    the next; fresh solvent, if any, enters all stages in equal parts (diafiltration).
+
+    Solids are held back by size, dissolved matter by that of a compact molecule of its molar mass, which
+    polarization lessens. Flux is that of the pressure less the osmotic pressure at the wall, or that at which
+    what is held back gels there (``concentration_gel``), whichever is less. The transfer coefficient is one
+    for all solutes, and fouling a resistance that is given.
+    """
+
+    pore_diameter: Length
+    mass_transfer_coefficient: MassTransferCoefficient
+    medium_resistance: Resistance
+    fouling_resistance: MediumResistance = eqx.field(kw_only=True, default=0.0)
+    concentration_gel: Annotated[Concentration, Within(1e-3)] | None = eqx.field(kw_only=True, default=None)
+    stage_count: Literal["1", "2", "3", "4", "5", "6"] = eqx.field(kw_only=True, static=True, default="1")
+    circulation_flow: VolumeFlow = eqx.field(kw_only=True, default=0.0)
+    pressure_drop_channel: PressureDrop = eqx.field(kw_only=True, default=1e5)
+
+    limits: ClassVar[Limits] = {
+        "flux": Limit("flux of the membrane", 1.4e-6, 1.4e-4, "m/s", SOURCE),
+        "pressure": Limit("pressure across the membrane", 1e4, 1e6, "Pa", SOURCE),
+        "gel": Limit("matter in the retentate over that of a gel", 0.0, 0.9, "dimensionless", SOURCE),
+        "once": Limit("permeate over the circulating flow", 0.0, 0.2, "dimensionless", SOURCE, quiet=True),
+    }
+
+    def membrane(self, feed: Stream) -> Membrane:
+        """One stage."""
+        m, count = feed.mixture, int(self.stage_count)
+        masses = [s.molar_mass for s in m.liquids]
+        if not all(mass > 0.0 for mass in masses):
+            raise CaseError(_("The membrane asks for the molar mass of every liquid of the mixture."))
+        held = jnp.stack(
+            [jnp.zeros(()), *(rejection_ferry(_size(mass), self.pore_diameter) for mass in masses[1:])]
+        )
+        through = 1.0 - rejection_ferry(jnp.asarray(m.sizes), self.pore_diameter)
+        resistance = self.medium_resistance + self.fouling_resistance
+        return Membrane(
+            self.area / count,
+            self.pressure_drop,
+            self.mass_transfer_coefficient,
+            lambda permeate: 1.0 / (permeate.liquid_viscosity * resistance),
+            lambda _flux, modulus: (1.0 - held) * modulus / (held + (1.0 - held) * modulus),
+            jnp.broadcast_to(through, (len(m.solids), through.size)),
+            self.concentration_gel,
+        )
+
+    def inside(self, feed: Stream, solvent: Stream | None = None) -> list[Staged]:
+        return self.chain(feed, self.membrane(feed), int(self.stage_count), solvent)
+
+    def outlets(self, inside: list[Staged], feed: Stream, solvent: Stream | None = None) -> Parted:
+        entering, volume = feed.enthalpy_flow, feed.slurry_volume_flow
+        if solvent is not None:
+            entering = entering + solvent.enthalpy_flow
+            volume = volume + solvent.slurry_volume_flow
+        fed = shaft_power_incompressible(volume, self.pressure_drop, PUMP)
+        loop = shaft_power_incompressible(self.circulation_flow, self.pressure_drop_channel, PUMP)
+        power = jnp.where(volume > 0.0, fed + int(self.stage_count) * loop, 0.0)
+        return self.joined(inside, entering, power)
+
+    def figures(
+        self, inside: list[Staged], outlets: Parted, feed: Stream, solvent: Stream | None = None
+    ) -> MembraneFigures:
+        mean, last, flow = self.flux(inside)
+        return MembraneFigures(
+            mean,
+            last,
+            flow,
+            safe_divide(feed.liquid_volume_flow, outlets.retentate.liquid_volume_flow, 1.0),
+            _greatest(inside),
+            inside[-1].osmotic,
+            matter(outlets.retentate, self.membrane(feed)),
+            jnp.clip(safe_divide(outlets.retentate.solid_flow, feed.solid_flow, 1.0), 0.0, 1.0),
+            outlets.shaft_power,
+            safe_divide(outlets.shaft_power, flow, 0.0),
+        )
+
+    def measured(
+        self,
+        inside: list[Staged],
+        outlets: Parted,
+        figures: MembraneFigures,
+        feed: Stream,
+        solvent: Stream | None = None,
+    ) -> dict[str, Any]:
+        gel = self.concentration_gel
+        most = jnp.max(jnp.stack([s.flux for s in inside])) * self.area / int(self.stage_count)
+        return {
+            "flux": figures.filtrate_flux,
+            "pressure": jnp.asarray(self.pressure_drop),
+            "once": safe_divide(most, jnp.asarray(self.circulation_flow), 0.0),
+            **({} if gel is None else {"gel": figures.concentration_retentate / gel}),
+        }
+
+    def drawn(
+        self,
+        inside: list[Staged],
+        outlets: Parted,
+        figures: MembraneFigures,
+        feed: Stream,
+        solvent: Stream | None = None,
+    ) -> dict[str, Any]:
+        return {"electric_power_pump": driven(outlets.shaft_power), "area_installed": self.area}
+
+
+def _size(molar_mass: float) -> Any:
+    """Of a molecule, m, whether or not it is a protein."""
+    return molecule_diameter.function(molar_mass, 0.73e-3)
+
+
+@equipment(
+    "reverse_osmosis",
+    source="wijmans1995; filmtec2023",
+    title="Reverse osmosis or nanofiltration plant",
+    equation=(
+        r"u = A\left(\Delta p - \Delta\pi\right),\qquad \frac{c_p}{c_b} = "
+        r"\frac{B\,e^{u/k}}{u + B\,e^{u/k}}"
+    ),
+)
+class ReverseOsmosis(_Plant):
+    """Elements in series under pressure: solvent passes by pressure less osmotic pressure at the wall, solute
+    at its own rate, by solution and diffusion.
+
+    The osmotic pressure follows from the water activity of the library's solutes, each as in its own solution
+    with all the water; other solutes count as ideal. One permeability holds for all solutes. Each element is
+    mixed on its feed side; the pressure lost along it is left out. Solids stay with the retentate.
+    """
+
+    membrane_permeance: Permeance
+    solute_permeability: Speed
+    mass_transfer_coefficient: MassTransferCoefficient
+    element_count: Literal["1", "2", "3", "4", "5", "6", "7", "8"] = eqx.field(
+        kw_only=True, static=True, default="6"
+    )
+    machine_efficiency: Efficiency = eqx.field(kw_only=True, default=PUMP)
+    energy_recovery_efficiency: Fraction = eqx.field(kw_only=True, default=0.0)
+
+    limits: ClassVar[Limits] = {
+        "flux": Limit("flux of the membrane", 1.4e-6, 1.4e-5, "m/s", "filmtec2023"),
+        "pressure": Limit("pressure across the membrane", 5e5, 8.3e6, "Pa", "filmtec2023"),
+        "polarization": Limit("polarization modulus", 1.0, 1.2, "dimensionless", "filmtec2023"),
+        "solids": Limit("solids before the membrane", 0.0, 1e-6, "dimensionless", "filmtec2023", quiet=True),
+    }
+
+    def membrane(self, feed: Stream) -> Membrane:
+        """One element."""
+        m, B = feed.mixture, self.solute_permeability
+
+        def passage(flux: Any, modulus: Any) -> Any:
+            held = rejection_solution_diffusion.function(flux, B * modulus)
+            return jnp.full(len(m.liquids), 1.0) * (1.0 - held)
+
+        return Membrane(
+            self.area / int(self.element_count),
+            self.pressure_drop,
+            self.mass_transfer_coefficient,
+            lambda _permeate: jnp.asarray(self.membrane_permeance, dtype=float),
+            passage,
+            jnp.zeros((len(m.solids), m.sizes.size)),
+        )
+
+    def inside(self, feed: Stream) -> list[Staged]:
+        return self.chain(feed, self.membrane(feed), int(self.element_count))
+
+    def outlets(self, inside: list[Staged], feed: Stream) -> Parted:
+        fed = shaft_power_incompressible(feed.slurry_volume_flow, self.pressure_drop, self.machine_efficiency)
+        back = self.energy_recovery_efficiency * inside[-1].retentate.slurry_volume_flow * self.pressure_drop
+        return self.joined(inside, feed.enthalpy_flow, fed - back)
+
+    def figures(self, inside: list[Staged], outlets: Parted, feed: Stream) -> OsmosisFigures:
+        mean, last, flow = self.flux(inside)
+        leaves = safe_divide(_dissolved(outlets.permeate), _dissolved(feed), 0.0)
+        return OsmosisFigures(
+            mean,
+            last,
+            flow,
+            jnp.clip(safe_divide(outlets.permeate.liquid_volume_flow, feed.liquid_volume_flow), 0.0, 1.0),
+            _greatest(inside),
+            inside[-1].osmotic,
+            jnp.clip(1.0 - leaves, 0.0, 1.0),
+            outlets.shaft_power,
+            safe_divide(outlets.shaft_power, flow, 0.0),
+        )
+
+    def measured(
+        self, inside: list[Staged], outlets: Parted, figures: OsmosisFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {
+            "flux": figures.filtrate_flux,
+            "pressure": jnp.asarray(self.pressure_drop),
+            "polarization": figures.polarization_modulus,
+            "solids": feed.solids_mass_fraction,
+        }
+
+    def drawn(
+        self, inside: list[Staged], outlets: Parted, figures: OsmosisFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {"electric_power_pump": driven(outlets.shaft_power), "area_installed": self.area}

@@ -1,0 +1,69 @@
+"""Membrane plants with ordinary solutions and settings, to be tried by the contracts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from tests.contracts.unit_search import Case, shares
+
+from granum.filtration.equipment.membranes import ReverseOsmosis, Ultrafiltration
+from granum.streams.from_materials import mixture_of
+from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream, empty
+
+
+def _whey(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s with up to 6 % of sugar and 0.1 to 3 % of protein at 10 to 50 °C, and water to wash."""
+    flow, sugar = 10.0 ** (-1.0 + 2.0 * x[0]), 0.06 * x[1]
+    solid = flow * 10.0 ** (-3.0 + 1.5 * x[2]) * shares(x[4], x[5], len(mixture.sizes))
+    feed = empty(mixture, 283.0 + 40.0 * x[3]).replace(
+        solid=solid[None, :], liquid=flow * jnp.stack([1.0 - sugar, sugar])
+    )
+    water = empty(mixture, 293.0 + 20.0 * x[6]).replace(liquid=flow * x[7] * jnp.array([1.0, 0.0]))
+    return {"feed": feed, "solvent": water}
+
+
+def _brine(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of 0.05 to 4 % of salt between 10 and 40 °C."""
+    flow, share = 10.0 ** (-1.0 + 2.0 * x[0]), 10.0 ** (-3.3 + 1.9 * x[1])
+    return {
+        "feed": empty(mixture, 283.0 + 30.0 * x[2]).replace(liquid=flow * jnp.stack([1.0 - share, share]))
+    }
+
+
+def membranes(classes: int) -> dict[str, Case]:
+    """One case of each, its area in proportion to its feed."""
+    whey = mixture_of(["water", "sucrose"], ["whey protein"], [], np.geomspace(2e-9, 2e-8, classes + 1))
+    brine = mixture_of(
+        ["water", "sodium chloride"], ["sodium chloride"], [], np.geomspace(1e-5, 1e-3, classes + 1)
+    )
+    return {
+        "ultrafiltration": Case(
+            whey,
+            _whey,
+            lambda f, u: Ultrafiltration(
+                f["feed"].liquid_flow * (5.0 + 60.0 * u[0]),
+                5e4 + 4e5 * u[1],
+                3e-9 + 2e-8 * u[2],
+                10.0 ** (-6.0 + 1.5 * u[3]),
+                10.0 ** (12.0 + 1.5 * u[4]),
+                concentration_gel=200.0 + 100.0 * u[5],
+                stage_count="3",
+                circulation_flow=1e-2 * u[1],
+            ),
+        ),
+        "osmosis": Case(
+            brine,
+            _brine,
+            lambda f, u: ReverseOsmosis(
+                f["feed"].liquid_flow * (5.0 + 60.0 * u[0]),
+                1e6 + 5.5e6 * u[1],
+                10.0 ** (-12.0 + u[2]),
+                10.0 ** (-8.0 + 1.5 * u[3]),
+                10.0 ** (-5.0 + u[4]),
+                energy_recovery_efficiency=u[5],
+            ),
+        ),
+    }
