@@ -35,6 +35,7 @@ QUICK = (
     "recompression",
     "train",
     "drowned",
+    "layers",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)
