@@ -9,6 +9,7 @@ from tests.contracts.unit_cases import crystallizers
 from tests.contracts.unit_search import Case, shares
 
 from granum.crystallization.equipment.antisolvent import AntisolventCrystallizer
+from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
@@ -38,6 +39,21 @@ def _met(mixture: Mixture, x: Any) -> dict[str, Stream]:
     return {"feed": feed, "antisolvent": spirit}
 
 
+def _melt(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with up to 6 % of nitrate and ethanol, sand and air."""
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    return {
+        "feed": empty(mixture, 275.0 + 30.0 * x[2]).replace(
+            solid=water
+            * 0.02
+            * x[7]
+            * jnp.stack([0.0 * shares(x[5], x[4], classes), shares(x[5], x[4], classes)]),
+            liquid=water * jnp.stack([1.0, 0.03 * x[1], 0.03 * x[6]]),
+            gas=1e-4 * water * jnp.stack([0.0, x[7]]),
+        )
+    }
+
+
 def mixed(classes: int) -> dict[str, Case]:
     nitrate = crystallizers(classes)["msmpr"].mixture
     return {
@@ -55,5 +71,20 @@ def mixed(classes: int) -> dict[str, Case]:
                 solvent="water",
                 second_solvent="ethanol",
             ),
-        )
+        ),
+        "layers": Case(
+            nitrate,
+            _melt,
+            lambda f, u: LayerMeltCrystallizer(
+                260.0 + 15.0 * u[0],
+                334e3,
+                0.01 + 0.1 * u[1],
+                10.0 ** (-7.0 + u[2]),
+                3e-6,
+                0.3 + 0.5 * u[3],
+                sweated_fraction=0.2 * u[4],
+                impurity_fraction_eutectic=0.3 + 0.6 * u[5],
+                pure_liquid="water",
+            ),
+        ),
     }

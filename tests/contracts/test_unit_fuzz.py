@@ -38,6 +38,7 @@ QUICK = (
     "drowned",
     "ultrafiltration",
     "osmosis",
+    "layers",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

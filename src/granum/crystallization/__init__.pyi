@@ -6,6 +6,10 @@ from granum.crystallization.charts import (
     size_distribution_chart as size_distribution_chart,
     solubility_chart as solubility_chart,
 )
+from granum.crystallization.charts_melt import (
+    layer_purity_chart as layer_purity_chart,
+    zone_refining_chart as zone_refining_chart,
+)
 from granum.crystallization.charts_solutions import (
     antisolvent_chart as antisolvent_chart,
 )
@@ -35,6 +39,12 @@ from granum.crystallization.equipment.in_time import (
     Crystallized as Crystallized,
     Held as Held,
     InTime as InTime,
+)
+from granum.crystallization.equipment.layer_melt import (
+    LayerFigures as LayerFigures,
+    LayerMeltCrystallizer as LayerMeltCrystallizer,
+    LayerOutlets as LayerOutlets,
+    Staged as Staged,
 )
 from granum.crystallization.equipment.msmpr import (
     ClassifiedCrystallizer as ClassifiedCrystallizer,
@@ -125,6 +135,14 @@ from granum.crystallization.formulas.growth import (
     growth_rate_birth_and_spread as growth_rate_birth_and_spread,
     growth_rate_power as growth_rate_power,
     growth_rate_spiral as growth_rate_spiral,
+)
+from granum.crystallization.formulas.melt import (
+    Segregation as Segregation,
+    distribution_coefficient_effective as distribution_coefficient_effective,
+    impurity_ratio_sweating as impurity_ratio_sweating,
+    impurity_ratio_zone as impurity_ratio_zone,
+    impurity_ratio_zone_ultimate as impurity_ratio_zone_ultimate,
+    segregation_freezing as segregation_freezing,
 )
 from granum.crystallization.formulas.msmpr import (
     coefficient_of_variation as coefficient_of_variation,
@@ -303,4 +321,8 @@ from granum.crystallization.vessels.precipitation import (
     ReagentAddition as ReagentAddition,
     SaltEquilibrium as SaltEquilibrium,
     precipitation_batch as precipitation_batch,
+)
+from granum.crystallization.vessels.zone_melting import (
+    ZoneRefined as ZoneRefined,
+    zone_refining as zone_refining,
 )

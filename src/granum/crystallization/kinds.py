@@ -51,6 +51,8 @@ MolarEntropy = Annotated[Any, Kind("entropy per amount", "J/(mol*K)", display=("
 ForwardGrowthRate = Annotated[GrowthRate, Within(0.0)]  # crystals that grow; laws may also dissolve
 # a share of a mixture of which something else is left
 OpenShare = Annotated[MassFraction, Within(0.0, 0.999)]
+# impurity in the crystal over that in the melt, where crystals are the purer
+DistributionCoefficient = Annotated[PositiveNumber, Within(1e-6, 1.0)]
 SoluteShare = Annotated[PositiveNumber, Within(0.0, 1.0)]  # anhydrous solute in a crystal
 PositiveMolarEnergy = Annotated[MolarEnergy, Within(0.0)]
 ProductionRate = Annotated[

@@ -102,7 +102,7 @@ class Liquor:
         for solid in m.solids:
             if dissolved & {name for name, _share in solid.composition}:
                 found = roles(m, solid.name, "")
-                system = solute_system(m.materials, m.liquids[found.solute].name, self.solvent.name)
+                system = solute_system(m.materials, m.liquids[found.solute].name, (self.solvent.name,))
                 if system is not None:
                     return found, system.branch(solid.name).value
         return None
