@@ -17,7 +17,7 @@ DIGITS = 5
 
 
 def answers(name: str, seed: int | None = None) -> list[dict[str, Any]]:
-    """What is right at every step, as ``text``; of a choice also ``why``, of a number ``value`` and ``unit``."""
+    """What is right at every step: ``text``, of a choice its ``why``, of a number ``value`` and ``unit``."""
     found = exercises.exercise(name)
     numbers = Numbers(found, seed)
     return [_answer(step, place, numbers) for place, step in enumerate(found["steps"])]
@@ -68,7 +68,7 @@ def sheet(name: str, first: int, last: int) -> str:
 
 
 def _asked(found: dict[str, Any]) -> list[str]:
-    """The heads of the answers: number, question and unit of the step; a number of the question is left open."""
+    """The heads of the answers: number, question and unit of the step, drawn numbers left open."""
     return [
         _headed(
             f"{place}. {PLACE.sub('…', exercises.in_language(step['ask']))}",

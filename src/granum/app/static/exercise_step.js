@@ -3,13 +3,14 @@ import { html, t, ask, link, useAnswer, useKept, useState, settings, Working } f
 import { Quantity } from './quantity.js';
 import { Sensitivity } from './sensitivity.js';
 import { note } from './progress.js';
+import { Indexed } from './indices.js';
 import { hrefOf } from './seek.js';
 
 /** The answers to choose from, one of them. */
 export function Choices({ step, group, text, onChange, off = false }) {
-  return html`<div class="choices" role="radiogroup" aria-label=${step.ask}>${step.choices.map(
+  return html`<div class="picks" role="radiogroup" aria-label=${step.ask}>${step.choices.map(
     (choice) =>
-      html`<label class="choice"><input type="radio" name=${group} value=${choice.key} checked=${text === String(choice.key)} disabled=${off} onChange=${() => onChange(String(choice.key))} /> <span>${choice.says}</span></label>`,
+      html`<label class="pick"><input type="radio" name=${group} value=${choice.key} checked=${text === String(choice.key)} disabled=${off} onChange=${() => onChange(String(choice.key))} /> <span><${Indexed} text=${choice.says} /></span></label>`,
   )}</div>`;
 }
 
@@ -46,7 +47,7 @@ export function Step({ name, place, seed, step, record }) {
     setOpen(!open);
   };
   const change = (text) => keep({ text, verdict: null });
-  return html`<li data-step=${place}><h2>${step.ask}</h2>
+  return html`<li data-step=${place}><h2><${Indexed} text=${step.ask} /></h2>
     <form class=${chosen ? 'reply chosen' : 'row reply'} onSubmit=${(e) => {
       e.preventDefault();
       check();
@@ -58,12 +59,12 @@ export function Step({ name, place, seed, step, record }) {
       <div class="row"><button class="button main" disabled=${!kept.text.trim() || busy}>${t('Check')}</button>
       ${(step.hint || step.equation) && html`<button type="button" class="button" aria-expanded=${String(hint)} onClick=${() => setHint(!hint)}>${t('Hint')}</button>`}
       <button type="button" class="button" aria-expanded=${String(open)} onClick=${reveal}>${open ? t('Hide the answer') : t('Show the answer')}</button></div></form>
-    <p role="status" data-verdict=${kept.verdict?.verdict ?? ''} class=${`mark ${right ? 'ok' : 'out'}`}>${kept.verdict && `${right ? '✓' : '✗'} ${said}`}</p>
+    <p role="status" data-verdict=${kept.verdict?.verdict ?? ''} class=${`mark ${right ? 'ok' : 'out'}`}>${kept.verdict && html`${right ? '✓' : '✗'} <${Indexed} text=${said} />`}</p>
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
     ${!kept.verdict && record?.right && html`<p class="small ok">✓ ${t('Solved before.')}</p>`}
-    ${hint && html`<div class="card" data-hint>${step.hint && html`<p>${step.hint}</p>`}${step.card && html`<${Named} step=${step} />`}${step.equation && html`<${Equation} shown=${step.equation} />`}</div>`}
+    ${hint && html`<div class="card" data-hint>${step.hint && html`<p><${Indexed} text=${step.hint} /></p>`}${step.card && html`<${Named} step=${step} />`}${step.equation && html`<${Equation} shown=${step.equation} />`}</div>`}
     ${open && html`<div class="card" data-answer>${chosen ? html`<${Reason} name=${name} place=${place} seed=${seed} step=${step} />` : html`<${Calculated} step=${step} />`}</div>`}
-    ${(right || open) && step.erratum && html`<p class="message caution small" data-erratum>${step.erratum}</p>`}
+    ${(right || open) && step.erratum && html`<p class="message caution small" data-erratum><${Indexed} text=${step.erratum} /></p>`}
     ${(right || open) && chosen && step.card && html`<p class="small"><${Named} step=${step} /></p>`}</li>`;
 }
 
@@ -82,7 +83,7 @@ function Reason({ name, place, seed, step }) {
     0,
   );
   const found = data?.answers[place];
-  return html`${error && html`<p class="message out">${error.message}</p>`}<${Working} busy=${pending} cancel=${cancel} job=${job} />${found && html`<p data-output=${step.card}><strong>${found.text}</strong></p><p>${found.why}</p>`}`;
+  return html`${error && html`<p class="message out">${error.message}</p>`}<${Working} busy=${pending} cancel=${cancel} job=${job} />${found && html`<p data-output=${step.card}><strong><${Indexed} text=${found.text} /></strong></p><p><${Indexed} text=${found.why} /></p>`}`;
 }
 
 /** The answer with its calculation, and its chart when asked for. */
@@ -99,7 +100,7 @@ function Calculated({ step }) {
     row &&
     html`<p class="result" data-output=${row.name}><span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = <strong>${row.text}</strong></p>
     ${step.printed && html`<p class="small" data-printed>${t('Printed in the course: {value}', { value: step.printed })}</p>`}
-    ${step.remark && html`<p class="small dim">${step.remark}</p>`}
+    ${step.remark && html`<p class="small dim"><${Indexed} text=${step.remark} /></p>`}
     <div class="dim">${step.title}</div>${data.equation && html`<${Equation} shown=${data.equation} />`}
     <p class="small">${data.inputs_shown.map((r, i) => html`${i > 0 ? apart : ''}<span class="pair"><span dangerouslySetInnerHTML=${{ __html: r.symbol }} /> = ${r.text}</span>`)}</p>
     <div class="row"><button type="button" class="button" aria-expanded=${String(drawn)} onClick=${() => setDrawn(!drawn)}>${drawn ? t('Hide the chart') : t('Show the chart')}</button> <a class="small" href=${link('calculate', step.card, step.inputs)}>${t('Open in Calculate')}</a></div>

@@ -1,5 +1,6 @@
 // Exercises: statement, numbers, an answer of one's own for each step, marked at once; hint, then answer; quizzes under them.
 import { html, t, ask, link, useAnswer, settings, Working } from './core.js';
+import { Indexed } from './indices.js';
 import { Quiz } from './quiz.js';
 import { Step } from './exercise_step.js';
 import { done, exported, useProgress } from './progress.js';
@@ -53,7 +54,7 @@ function Exercise({ name, seed, progress }) {
   };
   if (!exercise)
     return html`<section aria-busy=${String(pending)} aria-label=${t('Worked examples')}>${error ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim">${t('Loading…')}</p>`}<${Working} busy=${pending} cancel=${cancel} job=${job} /></section>`;
-  return html`<section aria-label=${t('Worked examples')}><h1>${exercise.title}</h1><p class="statement">${exercise.statement}</p>
+  return html`<section aria-label=${t('Worked examples')}><h1>${exercise.title}</h1><p class="statement"><${Indexed} text=${exercise.statement} /></p>
     ${exercise.fresh && html`<div class="row"><button class="button" onClick=${fresh}>${t('Other numbers')}</button>${seed !== null && html` <a href=${link('exercises', name)}>${t('Back to the first numbers')}</a>`}</div>`}
     <ol class="steps">${exercise.steps.map((step, i) => html`<${Step} key=${i} name=${name} place=${i} seed=${seed} step=${step} record=${progress[name]?.[i]} />`)}</ol>
     <p class="small dim">${exercise.source}</p></section>`;
