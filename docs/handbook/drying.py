@@ -165,7 +165,11 @@ belt_area = [apple_water / sheet("belt dryer", f"capacity_{end}") for end in ("h
 
 
 def figure_path():
-    return d.dryer_air_path("25 degC", "50 %", "50 degC", relative_humidity_outlet="60 %")
+    drawing = d.dryer_air_path("25 degC", "50 %", "50 degC", relative_humidity_outlet="60 %")
+    drawing.data = [trace for trace in drawing.data if trace.type != "table"]
+    drawing.update_layout(width=None, height=560, title=None)
+    drawing.update_yaxes(domain=[0, 1])
+    return drawing
 
 
 def figure_energy():

@@ -1,0 +1,177 @@
+"""What the chapter on crystallization states, calculated."""
+
+from math import pi
+from pathlib import Path
+
+import numpy as np
+from chapters import said
+from validation import crystallization_msmpr, materials_solubility
+
+import granum as gr
+from granum.app.shipped import examples_folder
+from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
+
+c, m = gr.crystallization, gr.materials
+
+# ---- solubility
+SALTS = ("potassium nitrate", "potassium chloride", "sodium sulfate", "sodium chloride")
+at = {s: [m.solubility(f"{t} degC", s) for t in (20, 60)] for s in SALTS}
+cooled = {
+    s: c.crystallizer_balance_library(
+        "1 kg/s", float(at[s][1].solute_mass_fraction), "20 degC", "60 degC", system=s
+    )
+    for s in SALTS
+}
+two_solubilities = 1 - float(at["sodium sulfate"][0].solubility_per_solvent) / float(
+    at["sodium sulfate"][1].solubility_per_solvent
+)
+# ---- heat
+heat = {s: -float(x.heat_duty) / float(x.crystal_flow) for s, x in cooled.items()}
+water_per_salt = 1 / float(at["sodium chloride"][1].solubility_per_solvent)
+heat_boiling = water_per_salt * float(m.water_heat_of_vaporization("60 degC"))
+
+# ---- barrier
+KNO3 = {"crystal_density": "2110 kg/m^3", "molar_mass": "101.1 g/mol"}
+needed = {
+    g: c.supersaturation_ratio_nucleation(
+        "1e6 1/(m^3*s)", f"{g} mN/m", **KNO3, nucleation_preexponential=1e33
+    )
+    for g in (5, 20, 60)
+}
+less = c.nucleation_rate_classical(
+    0.95 * float(needed[20]), "20 mN/m", **KNO3, nucleation_preexponential=1e33
+)
+nucleus = c.critical_nucleus(float(needed[20]), "20 mN/m", **KNO3)
+fall = 1e6 / float(less)
+
+# ---- urea
+test = c.MsmprAnalysis.read(
+    Path(examples_folder()) / "msmpr-analysis" / "urea_bennett1969.csv",
+    residence_time="3.38 hour",
+    crystal_density=1335,
+)
+fit = test.fit()
+growth, births = fit["growth_rate"], fit["nucleation_rate"]
+# ---- larger
+longer = {i: float(c.dominant_size_changed(1.0, 2.0, 1.0, i)) for i in (1, 2, 3)}
+length = float(growth.value) * 3.38 * 3600
+median = c.mass_median_size(growth.value, "3.38 hour")
+small = c.undersize_mass_fraction(0.5 * float(median), growth.value, "3.38 hour")
+volume_for_half = 1.5**5  # the inverse of τ to the power 1/5
+kept = 0.1  # of the nuclei, when fines are dissolved
+with_fines_dissolved = kept ** (-1 / (2 + 3))
+volume_instead = float(c.dominant_size_changed(1.0, 10.0, 1.0, 2))
+density_line = fit["magma_density"]
+
+# ---- batch
+BATCH = {
+    "solute_per_solvent": 0.4929904,
+    "solubility": {"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
+    "growth": {"law": "power_law_growth", "growth_coefficient": "6967 um/min", "growth_order": 1.32},
+    "nucleation": {
+        "law": "secondary_nucleation",
+        "nucleation_coefficient": 2.78e-5 * 1e18 / 60 / 2110,
+        "nucleation_order": 1.78,
+    },
+    "duration": "80 min",
+    "crystal_density": 2110,
+    "seed_size": "100 um",
+    "seed_width": "20 um",
+}
+HOW = {"natural": 0.4, "linear": 1.0, "cubic": 3.0}
+seeded = {
+    (how, seed): c.batch(
+        **BATCH,
+        temperature_program=c.PowerCooling("32 degC", "28 degC", "80 min", power),
+        seed_mass_per_solvent=f"{seed} g/kg",
+    )
+    for how, power in HOW.items()
+    for seed in (0.25, 0.5, 1, 2, 4, 8)
+}
+# ---- seeds
+grown = {seed: seeded["linear", seed] for seed in (0.5, 2, 8)}
+expected = {
+    seed: 100e-6
+    * (1 + 1000 * float(x.crystals_per_solvent[-1] - x.crystals_per_solvent[0]) / seed) ** (1 / 3)
+    for seed, x in grown.items()
+}
+peak = {how: float(np.max(seeded[how, 0.5].relative_supersaturation)) for how in HOW}
+crop = float(grown[2].crystals_per_solvent[-1] - grown[2].crystals_per_solvent[0])
+loading = float(c.seed_loading_critical("100 um"))
+seed_kubota = loading * crop
+
+# ---- wall
+rate = 1000 / 3600
+duty = heat["potassium nitrate"] * rate
+least = float(c.temperature_difference_encrustation("5 delta_degC", "500 W/(m^2*K)", "1000 W/(m^2*K)"))
+jacket = duty / (500 * least)
+across = (4 * 10 / pi) ** (1 / 3)  # of a vessel of 10 m³ as high as wide
+offered = 1.25 * pi * across**2
+
+# ---- choice
+HOT_COLD = ("60 degC", "20 degC", "1 t/h")
+nitrate = c.choose({"law": "library_solubility", "solute": "potassium nitrate"}, *HOT_COLD)
+salt = c.choose({"law": "library_solubility", "solute": "sodium chloride"}, *HOT_COLD)
+
+
+def figure_solubility():
+    return materials_solubility().figure
+
+
+def figure_nucleation():
+    drawing = figure(
+        axis_title("supersaturation_ratio"),
+        axis_title("nucleation_rate", "1/(m^3*s)"),
+        x_log=True,
+        y_log=True,
+    )
+    ratio = np.geomspace(1.02, 100, 300)
+    for tension, color, dash in zip(needed, LINES, DASHES, strict=False):
+        rates = c.nucleation_rate_classical(ratio, f"{tension} mN/m", **KNO3, nucleation_preexponential=1e33)
+        seen = np.asarray(rates) > 1e-2
+        add_line(drawing, ratio[seen], np.asarray(rates)[seen], f"{tension} mJ/m²", color=color, dash=dash)
+    drawing.update_yaxes(range=[-2, 34], dtick=6)
+    return drawing
+
+
+def figure_urea():
+    return crystallization_msmpr().figure
+
+
+def figure_cooling():
+    drawing = figure(axis_title("time", "min"), axis_title("relative_supersaturation", "%"))
+    words = (
+        said("fast first (t to the power 0.4)", "rapide d’abord (t puissance 0,4)"),
+        said("linear", "linéaire"),
+        said("slow first (cubic)", "lent d’abord (cubique)"),
+    )
+    for how, name, color, dash in zip(HOW, words, LINES, DASHES, strict=False):
+        run = seeded[how, 0.5]
+        add_line(
+            drawing,
+            np.asarray(run.time) / 60,
+            100 * np.asarray(run.relative_supersaturation),
+            name,
+            color=color,
+            dash=dash,
+        )
+    return drawing
+
+
+def figure_seeds():
+    drawing = figure(
+        said("seeds / g per kg of water", "semence / g par kg d’eau"),
+        said("mass from nuclei / %", "masse issue des germes / %"),
+        x_log=True,
+        y_log=True,
+    )
+    words = (
+        said("fast first", "rapide d’abord"),
+        said("linear", "linéaire"),
+        said("slow first", "lent d’abord"),
+    )
+    for how, name, color, dash in zip(HOW, words, LINES, DASHES, strict=False):
+        seeds = [seed for way, seed in seeded if way == how]
+        share = [100 * float(seeded[how, seed].nuclei_mass_fraction) for seed in seeds]
+        add_line(drawing, seeds, share, name, color=color, dash=dash)
+    return drawing
