@@ -165,7 +165,7 @@ def _in_passes(
     done, ahead, looks = 0, FIRST, []
     while True:
         goal, began = min(done + ahead, most), time.monotonic()
-        found = solver(as_arrays(sheet), targets, np.asarray(goal), known, *begin)
+        found = solver(as_arrays(sheet), targets, np.asarray(goal), known, *as_arrays(begin))
         spent, solution = time.monotonic() - began, found.designed.solution
         if not solution.known:
             return found
