@@ -159,7 +159,8 @@ def test_units_are_renamed_bypassed_and_deleted_from_their_panel_and_specified(p
     solved(page)
     page.browser.execute_script("document.querySelector('[data-specifications]').open = true")
     Select(page.one("#spec-vary")).select_by_value("purge.side_fraction")
-    Select(page.one("#spec-figure")).select_by_value("purge.mass_flow")
+    Select(page.one("#spec-of")).select_by_value("purge")
+    Select(page.one("#spec-figure")).select_by_value("mass_flow")
     for name, value in (("equals", "1000 kg/h"), ("lower", "5 %"), ("upper", "90 %")):
         page.leave(page.type(f"#spec-{name}", value))
     page.button("Add the specification").click()

@@ -14,6 +14,7 @@ from granum.reports.mathml import mathml, words_of
 
 WRITTEN = {key: thing.card for key, thing in EVERYTHING.items() if thing.card.equation}
 FORMULAS = {key: card for key, card in WRITTEN.items() if card.sort == "formula"}
+LAWS = {key: card for key, card in WRITTEN.items() if card.sort == "law"}
 
 
 def stands(p: Parameter, among: set[str]) -> bool:
@@ -44,10 +45,18 @@ def test_what_is_asked_for_stands_in_the_equation_and_what_is_found_on_its_left(
     )
 
 
-@pytest.mark.parametrize("key", FORMULAS)
+@pytest.mark.parametrize("key", LAWS)
+def test_what_a_law_asks_for_stands_in_its_equation(key: str) -> None:
+    card = LAWS[key]
+    there = atoms(card.equation)
+    missing = {p.name: p.symbol for p in card.parameters if p.required and p.kind and not stands(p, there)}
+    assert not missing, f"not in {card.equation}"
+
+
+@pytest.mark.parametrize("key", FORMULAS | LAWS)
 def test_no_two_quantities_of_a_card_share_a_symbol(key: str) -> None:
-    card = FORMULAS[key]
-    rows = [p for p in card.parameters if p.required and p.kind]
+    card = WRITTEN[key]
+    rows = [p for p in (*card.parameters, *card.arguments) if p.required and p.kind]
     rows += card.outputs if len(card.outputs) == 1 else ()
     symbols = [p.symbol for p in rows]
     assert len(set(symbols)) == len(symbols), {p.name: p.symbol for p in rows}

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from granum.app.forms import card_form, entry, laws_with_parameters, options
-from granum.cases.building import share_of_feed
+from granum.cases.building import completed, share_of_feed
 from granum.cases.outline import Outline, outline, port_label, pretty, table_of
 from granum.cases.starting import listed
 from granum.core import registry
@@ -18,8 +18,12 @@ from granum.core.errors import CaseError, GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
+from granum.core.utilities import carrier
 from granum.flowsheet.drawing import ACROSS, Loose, draw
+from granum.flowsheet.stream_figures import FIGURES, PHASES, worth_telling
+from granum.flowsheet.utilities import price_parameter
 from granum.materials.library import session
+from granum.reports.utilities import carrier_label
 
 FEED_KINDS = {
     "mass_flow": "MassFlow",
@@ -94,10 +98,41 @@ def line_form(case: str, across: int = ACROSS) -> dict[str, Any]:
             for name, table in specs.items()
             if isinstance(table, dict)
         },
+        "stream_figures": _stream_figures(mixture),
+        "prices": _prices(found),
         "ends": _ends(found),
         "missing": list(found.missing),
         "diagram": draw(found, None, across, [Loose(*port) for port in found.open_inlets], growing=True),
     }
+
+
+def _stream_figures(mixture: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """What can be asked of a stream of the line."""
+    species = {own: listed(mixture, own) for own in PHASES.values()}
+    rows = []
+    for word in worth_telling(species):
+        phase, dot, name = word.partition(".")
+        p = Parameter(word, KINDS["MassFraction" if dot else FIGURES[word]])
+        rows.append(_figure(p) | ({"label": share_label(phase, name)} if dot else {}))
+    return rows
+
+
+def _prices(found: Outline) -> list[dict[str, Any]]:
+    """What the units of the line may take, each with the price that it has in the case."""
+    written = table_of(found.raw, "prices")
+    utilities = [name for model in found.units.values() if model is not None for name in model.utilities]
+    rows = []
+    for name in dict.fromkeys(carrier(n) for n in utilities):
+        if name != "area":
+            row = _figure(price_parameter(name))
+            price = case_value(written.get(name, ""))
+            rows.append(row | {"name": name, "label": carrier_label(name), "value": price})
+    return rows
+
+
+def share_label(phase: str, species: str) -> str:
+    """``Potassium nitrate in the liquid``."""
+    return _("{species} in the {phase}").format(species=session().label(species), phase=_(phase))
 
 
 def _ends(found: Outline) -> dict[str, list[dict[str, Any]]]:
@@ -218,14 +253,7 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
             continue
         for one in names[1:]:
             row = _row(Parameter(f"{phase}.{one}", KINDS["MassFraction"], default=None))
-            rows.append(
-                row
-                | {
-                    "label": _("{species} in the {phase}").format(
-                        species=session().label(one), phase=_(phase)
-                    )
-                }
-            )
+            rows.append(row | {"label": share_label(phase, one)})
             if isinstance(shares, dict) and one in shares:
                 values[f"{phase}.{one}"] = case_value(shares[one])
         rest = shares.get(names[0], "") if isinstance(shares, dict) else ""
@@ -296,9 +324,10 @@ def edited(case: str, table: str, name: str, key: str, text: str) -> str:
             place[key] = _typed(text, place.get(key))
         elif key in place:
             del place[key]
-        return tomlkit.dumps(document)
+        made = tomlkit.dumps(document)
     except (TOMLKitError, KeyError, TypeError, AttributeError):
         raise CaseError(_("There is no '{name}' in the case.").format(name=f"{table}.{name}")) from None
+    return completed(made, name) if table == "feeds" and text.strip() else made
 
 
 def _typed(text: str, before: Any) -> Any:

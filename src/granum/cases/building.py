@@ -23,6 +23,8 @@ from granum.cases.starting import (
     GAS_PER_FEED,
     GAS_PER_MOISTURE,
     PAIR,
+    SIZES,
+    crystallizing,
     crystals_of,
     drying_gas,
     first_feed,
@@ -36,6 +38,7 @@ from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
+from granum.flowsheet.stream_figures import FIGURES, PHASES, told_of
 from granum.flowsheet.symbols import word_of
 
 __all__ = [
@@ -55,6 +58,7 @@ __all__ = [
     "rename",
     "replace",
     "retitle",
+    "set_price",
     "set_specification",
     "share_of_feed",
     "use_fit",
@@ -168,6 +172,7 @@ def choose_substances(
                     phase,
                     {allowed[0]: percent(rest)} | {n: x for n, x in kept.items() if n != allowed[0]},
                 )
+        case = completed(case, feed)
     return checked(case)
 
 
@@ -201,6 +206,28 @@ def share_of_feed(case: str, feed: str, phase: str, species: str, value: str) ->
             )
         shares[first] = percent(max(rest, 0.0))
     return checked(with_value(case, ("feeds", feed), phase, {n: shares[n] for n in names if n in shares}))
+
+
+def completed(case: str, feed: str) -> str:
+    """A feed that was given a flow of a phase it did not have so far, with shares and sizes to begin with."""
+    raw = parsed(case, "case")
+    mixture, table = table_of(raw, "mixture"), table_of(table_of(raw, "feeds"), feed)
+    totals = "mass_flow" in table
+    flows = {phase: f"{phase}_flow" in table for phase in ("solid", "liquid", "gas")}
+    flows |= {"liquid": flows["liquid"] or totals, "solid": flows["solid"] or "solids_mass_fraction" in table}
+    crystal = crystallizing(mixture)[2]
+    for phase, species in (("solid", "solids"), ("liquid", "liquids"), ("gas", "gases")):
+        names = listed(mixture, species)
+        if not flows[phase] or len(names) < 2 or phase in table:
+            continue
+        if phase == "gas" and "relative_humidity" in table:
+            continue
+        first = next((n for n in names if n != crystal), names[0]) if phase == "solid" else names[0]
+        shares = {name: "100 %" if name == first else "0 %" for name in names}
+        case = with_value(case, ("feeds", feed), phase, shares)
+    if flows["solid"] and "sizes" not in table:
+        case = with_value(case, ("feeds", feed), "sizes", dict(SIZES))
+    return checked(case)
 
 
 def share_of(value: Any, name: str) -> float:
@@ -350,11 +377,22 @@ def add_wash(case: str, unit: str) -> str:
 def set_specification(
     case: str, vary: str, so_that: str, equals: str, lower: str, upper: str, name: str = ""
 ) -> str:
-    """A design specification: the value of an input of a unit is sought for which a figure takes a value."""
+    """A design specification: the value of an input of a unit or a feed is sought for which a result of a
+    unit, or a figure of a stream, takes a value.
+    """
     found = outline(case)
     for path, inputs in ((vary, True), (so_that, False)):
         unit, _dot, word = path.partition(".")
+        if inputs and unit in found.feeds:
+            continue  # told of when the line is read: what a feed carries depends on its values
         model = found.units.get(unit)
+        stream = None if inputs else told_of(found.links, path)
+        if stream is not None and stream[0].origin:
+            mixture = table_of(found.raw, "mixture")
+            shares = [f"{p}.{name}" for p, own in PHASES.items() for name in listed(mixture, own)]
+            if stream[1] not in (*FIGURES, *shares):
+                raise unknown_name(_("Figure"), stream[1], (*FIGURES, *shares))
+            continue
         if model is None:
             raise unknown_name(_("Unit"), unit, found.order)
         known = [p.name for p in (model.card.parameters if inputs else model.card.outputs)]
@@ -388,6 +426,14 @@ def remove_specification(case: str, name: str) -> str:
     if name not in specs:
         raise unknown_name(_("Specification"), name, specs)
     return checked(without_table(case, ("specifications", name)))
+
+
+def set_price(case: str, carrier: str, price: str) -> str:
+    """The price of what the line takes of a carrier or a material; empty text takes it out."""
+    if not price.strip():
+        known = carrier in table_of(parsed(case, "case"), "prices")
+        return checked(without_value(case, ("prices",), carrier)) if known else case
+    return checked(with_value(case, ("prices",), carrier, price.strip()))
 
 
 def use_fit(

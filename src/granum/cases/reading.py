@@ -22,7 +22,8 @@ from granum.core.parameters import Parameter
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.dynamics import Profile, check_profiles, check_start
 from granum.flowsheet.run import Line, Movement
-from granum.flowsheet.specifications import Target
+from granum.flowsheet.specifications import Target, looked_at, varied
+from granum.flowsheet.utilities import priced
 from granum.materials.library import Library
 from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
@@ -152,6 +153,10 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
         sheet = sheet.with_values(fitted_values(fits))
     targets = tuple(_target(name, spec, sheet) for name, spec in case.specifications.items())
     _require_independent(case, targets)
+    try:
+        prices = priced(sheet, case.prices, _("in [prices]"))
+    except GranumError as problem:
+        raise CaseError(f"[prices] {problem.message}", **problem.details) from None
     told = {
         "description": case.description,
         "project": case.report.project,
@@ -166,6 +171,7 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
         text,
         fits,
         told,
+        prices,
     )
 
 
@@ -233,19 +239,12 @@ def _with_materials(unit: Any, materials: Library) -> Any:
 
 def _target(name: str, spec: Any, sheet: Flowsheet) -> Target:
     where = _("in [specifications.{name}]").format(name=name)
-    head, *rest = sheet.locate(spec.vary)
-    if head not in sheet.units or len(rest) != 1:
-        raise CaseError(_("{where}: 'vary' must be unit.parameter.").format(where=where))
-    parameter = type(sheet.units[head]).card.parameter(rest[0])
+    try:
+        parameter, result = varied(sheet, spec.vary), looked_at(sheet, spec.so_that)
+    except GranumError as problem:
+        raise CaseError(f"[specifications.{name}] {problem.message}", specification=name) from None
     low, high = (float(convert(v, parameter, " " + where)) for v in (spec.lower, spec.upper))
-    unit, _dot, figure = spec.so_that.partition(".")
-    if unit in sheet.units:
-        outputs = {p.name: p for p in type(sheet.units[unit]).card.outputs}
-        if figure not in outputs:
-            raise CaseError(unknown_name(_("Result"), figure, outputs, where).message)
-        wanted = float(convert(spec.equals, outputs[figure], " " + where))
-    else:
-        raise CaseError(unknown_name(_("Unit"), unit, sheet.units, where).message)
+    wanted = float(convert(spec.equals, result, " " + where))
     return Target(spec.vary, spec.so_that, wanted, low, high)
 
 

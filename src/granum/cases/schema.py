@@ -83,8 +83,11 @@ class StreamTable(_Strict):
 class Specification(_Strict):
     """A design specification: vary one parameter so that one result takes a value."""
 
-    vary: str
-    so_that: str
+    vary: str = Field(description="unit.parameter, or a figure of a feed such as feed.gas_flow")
+    so_that: str = Field(
+        description="unit.result, or a figure of a stream by its name or its outlet, such as "
+        "dryer.product.moisture_dry_basis or filtrate.liquid.NAME"
+    )
     equals: Quantity
     lower: Quantity
     upper: Quantity
@@ -171,6 +174,9 @@ class Case(Studied):
     units: dict[str, dict[str, Any]]
     streams: dict[str, StreamTable | list[str]] = {}
     specifications: dict[str, Specification] = {}
+    prices: dict[str, Quantity] = Field(
+        default={}, description="of what the line takes: electricity, carriers of heat and cold, materials"
+    )
     dynamic: DynamicTable | None = Field(
         default=None, description="how the line runs in time: start-up and disturbances"
     )

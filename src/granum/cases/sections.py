@@ -99,7 +99,7 @@ def with_table(text: str, path: tuple[str, ...], values: Mapping[str, Any]) -> s
     return "\n".join([*lines[:at], *([""] if at else []), *block, *lines[at:]]) + "\n"
 
 
-ORDER = ("report", "mixture", "feeds", "units", "streams", "specifications", "fits")
+ORDER = ("report", "mixture", "feeds", "units", "streams", "specifications", "prices", "fits")
 """In which the tables of a case are written."""
 
 

@@ -20,6 +20,7 @@ from granum.cases.outline import (
 )
 from granum.cases.sections import (
     checked,
+    key,
     renamed_table,
     sections,
     with_table,
@@ -29,6 +30,7 @@ from granum.cases.sections import (
 )
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.flowsheet.plan import Link
 
 MIXER, SPLITTER = "streams.mixer", "streams.splitter"
 PURGE = "20 %"
@@ -272,13 +274,14 @@ def remove(case: str, name: str) -> str:
         case = _without_stream(case, found, k.name)
     for k in into:
         case = _leading(case, found, k.name, main.target if main else "")
+    gone = {name, *(k.name for k in out)}
     for table, text in (("specifications", ("vary", "so_that")), ("fits", ())):
-        for key, spec in table_of(found.raw, table).items():
+        for title, spec in table_of(found.raw, table).items():
             if isinstance(spec, dict) and (
-                any(str(spec.get(word, "")).split(".")[0] == name for word in text)
+                any(str(spec.get(word, "")).split(".")[0] in gone for word in text)
                 or any(str(path).split(".")[0] == name for path in table_of(spec, "gives"))
             ):
-                case = without_table(case, (table, key))
+                case = without_table(case, (table, title))
     for path in table_of(found.raw, "uncertain"):
         if path.split(".")[0] == name:
             case = without_value(case, ("uncertain",), path)
@@ -290,18 +293,36 @@ def _domain(model: Any) -> str:
 
 
 def rename(case: str, old: str, new: str) -> str:
-    """A unit or a feed under another name, wherever the case speaks of it."""
+    """A unit, a feed or a stream under another name, wherever the case speaks of it."""
     found = outline(case)
-    if old not in found.order and old not in found.feeds:
-        raise unknown_name(_("Unit or feed"), old, found.names)
+    stream = next((k for k in found.links if k.name == old and k.origin), None)
+    if old not in found.order and old not in found.feeds and stream is None:
+        raise unknown_name(_("Unit, feed or stream"), old, found.names)
     if identifier(new) == old:
         return case
     name = free_name(found, new, exact=True)
+    if stream is not None and old not in found.order:
+        return checked(_stream_renamed(case, stream, name))
     table = "units" if old in found.order else "feeds"
     case = renamed_table(case, (table, old), name)
     if table == "feeds" and old in found.order:
         return checked(case)
     return checked(_respelled(case, old, name))
+
+
+def _stream_renamed(case: str, stream: Link, name: str) -> str:
+    """A stream under another name; one that only its outlet named so far gets one of its own."""
+    if "." in stream.name:
+        return with_value(case, ("streams",), name, [stream.origin])
+    if any(s.path == ("streams", stream.name) for s in sections(case)):
+        return _respelled(renamed_table(case, ("streams", stream.name), name), stream.name, name)
+    lines = case.split("\n")
+    written = re.compile(rf"^(\s*)([\"']?){re.escape(stream.name)}\2(?=\s*=)")
+    for s in sections(case):
+        if s.path == ("streams",):
+            for i in range(s.first + 1, s.last):
+                lines[i] = written.sub(lambda m: m[1] + key(name), lines[i])
+    return _respelled("\n".join(lines), stream.name, name)
 
 
 def _respelled(case: str, old: str, new: str) -> str:

@@ -28,6 +28,7 @@ class SelectionFunction(eqx.Module):
     source="austin1984, ch. 5",
     title="Austin's selection function",
     equation=r"S(x) = a \left(\frac{x}{x_0}\right)^{\alpha} \frac{1}{1 + (x/\mu)^{\Lambda}}",
+    symbols={"particle_diameter": "x", "reference_size": "x_0"},
 )
 class AustinSelection(SelectionFunction):
     """Power of the size, with a fall-off for particles too large for the grinding media.
@@ -143,6 +144,7 @@ def selection_rate_herbst_fuerstenau(
     source="whiten1972; napiermunn1996",
     title="Whiten's crusher classification",
     equation=r"C(x) = 0\ (x < K_1),\ 1 - \left(\frac{K_2 - x}{K_2 - K_1}\right)^{K_3},\ 1\ (x > K_2)",
+    symbols={"particle_diameter": "x"},
 )
 class WhitenClassification(eqx.Module):
     """Chance that a particle is nipped and broken before it leaves a cone or jaw crusher; class means are

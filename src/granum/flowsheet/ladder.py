@@ -9,12 +9,22 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from granum.core.i18n import _
-from granum.core.units import format_number
+from granum.core.units import format_number, show
 from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import no_stream, nothing_known, solve
-from granum.flowsheet.specifications import Designed, Target, among, design, figure
+from granum.flowsheet.specifications import (
+    Designed,
+    Target,
+    among,
+    design,
+    figure,
+    looked_at,
+    unit_of,
+    varied,
+)
+from granum.flowsheet.stream_figures import changed, given_value
 from granum.flowsheet.watching import Watch
 from granum.numerics import Anderson, Continuation
 from granum.streams.stream import Stream
@@ -55,7 +65,10 @@ def beginning(sheet: Flowsheet, targets: tuple[Target, ...], left: Designed | No
     nothing = no_stream(sheet)
     return Beginning(
         dict.fromkeys(torn, nothing),
-        {t.vary: np.asarray(np.nan if (own := sheet.value(t.vary)) is None else own, float) for t in targets},
+        {
+            t.vary: np.asarray(np.nan if (own := given_value(sheet, t.vary)) is None else own, float)
+            for t in targets
+        },
     )
 
 
@@ -95,8 +108,8 @@ def _exactly(
 
 @compiled
 def _figure(sheet: Flowsheet, path: str) -> tuple[Any, Any]:
-    solution = solve(sheet, sheets={path.partition(".")[0]})
-    return figure(solution, path), solution.converged
+    solution = solve(sheet, sheets={unit_of(sheet, path)})
+    return figure(sheet, solution.sheets, solution.streams, path), solution.converged
 
 
 def climb(
@@ -129,6 +142,8 @@ def climb(
         wrong = [Fault("stopped", "", "", _stopped(watch)), *wrong]
     if wrong and wrong[0].kind == "target":
         wrong = [wrong[0]._replace(message=_unmet(sheet, targets))]
+    elif wrong and wrong[0].kind == "loop" and targets and (told := _out_of_reach(sheet, targets)):
+        wrong = [Fault("target", "", "", told)]  # the loop does not rest because it is led out of its limits
     return found, wrong
 
 
@@ -160,7 +175,7 @@ def _in_passes(
     """The line after some passes at a time, between which the watch is told, until it is solved, hopeless, or
     told to stop.
     """
-    known = nothing_known(sheet, method, among(targets), len(targets))
+    known = nothing_known(sheet, method, among(sheet, targets), len(targets))
     loops = [block.tears[0] for block in sheet.blocks if block.tears]
     done, ahead, looks = 0, FIRST, []
     while True:
@@ -241,7 +256,7 @@ def _reach(sheet: Flowsheet, target: Target) -> tuple[float, float]:
     left out.
     """
     ends = (
-        _figure(as_arrays(sheet.with_values({target.vary: x})), target.so_that)
+        _figure(as_arrays(changed(sheet, {target.vary: x})), target.so_that)
         for x in (target.lower, target.upper)
     )
     low, high = (float(value) if bool(good) else float("nan") for value, good in ends)
@@ -249,30 +264,45 @@ def _reach(sheet: Flowsheet, target: Target) -> tuple[float, float]:
 
 
 def _unmet(sheet: Flowsheet, targets: tuple[Target, ...]) -> str:
+    wanted = []
+    for t in targets:
+        figure, low, high = _shown(sheet, t)
+        wanted.append(f"{t.so_that} = {figure(t.equals)} ({t.vary} {low} … {high})")
+    return _out_of_reach(sheet, targets) or _(
+        "No value of the varied parameters meets the specifications: {wanted}. Widen the limits or "
+        "change the wanted value."
+    ).format(wanted="; ".join(wanted))
+
+
+def _shown(sheet: Flowsheet, target: Target) -> tuple[Callable[[float], str], str, str]:
+    """How a result is written, and both limits of what is varied, with their units."""
+    given, result = varied(sheet, target.vary).kind, looked_at(sheet, target.so_that).kind
+    assert given is not None
+    assert result is not None  # a law cannot be varied, nor is one a result
+    return lambda x: show(x, result), show(target.lower, given), show(target.upper, given)
+
+
+def _out_of_reach(sheet: Flowsheet, targets: tuple[Target, ...]) -> str:
+    """Which result cannot be had between the limits, in words; empty where each can be had by itself."""
     for t in targets:
         low, high = _reach(sheet, t)
+        figure, lower, upper = _shown(sheet, t)
         if np.isfinite(low) and np.isclose(low, high, rtol=1e-9):
             return _(
-                "{result} does not depend on {vary}: it is {value} at both ends of the range (SI "
-                "units). Vary another parameter."
-            ).format(result=t.so_that, vary=t.vary, value=f"{low:.6g}")
+                "{result} does not depend on {vary}: it is {value} at both ends of the range. "
+                "Vary another parameter."
+            ).format(result=t.so_that, vary=t.vary, value=figure(low))
         if np.isfinite(low + high) and not min(low, high) <= t.equals <= max(low, high):
             return _(
                 "{result} = {wanted} is out of reach: it is {low} at {vary} = {lower} and {high} at "
-                "{upper} (SI units). Widen the limits, ask for a value between, or vary another parameter."
+                "{upper}. Widen the limits, ask for a value between, or vary another parameter."
             ).format(
                 result=t.so_that,
-                wanted=f"{t.equals:.6g}",
-                low=f"{low:.6g}",
-                high=f"{high:.6g}",
+                wanted=figure(t.equals),
+                low=figure(low),
+                high=figure(high),
                 vary=t.vary,
-                lower=f"{t.lower:.6g}",
-                upper=f"{t.upper:.6g}",
+                lower=lower,
+                upper=upper,
             )
-    wanted = "; ".join(
-        f"{t.so_that} = {t.equals:.6g} ({t.vary} {t.lower:.6g} … {t.upper:.6g})" for t in targets
-    )
-    return _(
-        "No value of the varied parameters meets the specifications: {wanted}. Widen the limits or "
-        "change the wanted value."
-    ).format(wanted=wanted)
+    return ""

@@ -34,7 +34,7 @@ from granum.flowsheet.passing import told
 from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution
-from granum.flowsheet.specifications import Target
+from granum.flowsheet.specifications import Target, varied
 from granum.flowsheet.utilities import (
     FIGURES,
     WATER,
@@ -79,6 +79,7 @@ class Line:
         in time, if it does.
     text: the case file it came from. fits: parameter → the fit it was taken from and its name there.
     told: ``description``, ``project``, ``author`` and ``date`` for the report.
+    prices: of carriers and materials, SI.
     """
 
     title: str
@@ -88,6 +89,7 @@ class Line:
     text: str = ""
     fits: Mapping[str, tuple[Fit, str]] = field(default_factory=dict)
     told: Mapping[str, str] = field(default_factory=dict)
+    prices: Mapping[str, float] = field(default_factory=dict)
 
     def solve(self, watch: Watch | None = None) -> Run:
         """Solve, check and audit. Raises ``ConvergenceError`` (``last`` keeps the last iterate) for whatever
@@ -267,6 +269,12 @@ class Run:
         """
         return cost_rate(self.carriers, prices)
 
+    @cached_property
+    def costs(self) -> dict[str, float]:
+        """What the line pays for each carrier and material that has a price, USD/s."""
+        taken, prices = self.carriers, self.line.prices
+        return {n: cost_rate({n: x}, {n: prices[n]}) for n, x in taken.items() if n in prices}
+
     @property
     def product(self) -> str:
         """Name of the main product: the stream leaving with most solid, without solid that with most mass."""
@@ -354,6 +362,11 @@ class Run:
             raise InputError(_("'{path}' is not a result of this line.").format(path=path), path=path)
         return float(getattr(self.units[unit].values, name))
 
+    def sought(self) -> Iterator[tuple[str, Parameter, float]]:
+        """What design specifications found: its path, what it is, its value."""
+        for path, value in self.found.items():
+            yield path, varied(self.line.sheet, path), value
+
     def as_json(self) -> dict[str, Any]:
         """The stable ``run`` shape."""
         return {
@@ -367,6 +380,7 @@ class Run:
                     for name, value in self.carriers.items()
                 },
                 **{p.name: quantity_json(value, p) for p, value in self.totals()},
+                "costs": {name: {"value": x, "unit": "USD/s"} for name, x in self.costs.items()},
             },
             "specifications": {name: plain(value) for name, value in self.found.items()},
             "audit": {

@@ -112,8 +112,8 @@ def _run_loop(
 
         made = pass_through(changed, block, streams | fed | torn(vector), asked, nothing)
         rows = [_pack(known_or(made.streams[n], nothing), scale) for n in block.tears]
-        image = rows if wanted is None else [*rows, sought - MISSES * wanted.misses(made.sheets)]
-        image = jnp.concatenate(image)
+        aims = [] if wanted is None else [sought - MISSES * wanted.misses(made.sheets, made.streams)]
+        image = jnp.concatenate([*rows, *aims])
         apart = jnp.split(image - vector, list(accumulate(row.size for row in rows)))
         return image, (made, jnp.stack([largest(part) for part in apart]))
 
@@ -134,13 +134,13 @@ class Wanted(NamedTuple):
     """What a line is wanted to give: parameters to find, and the figures that they are found for.
 
     start: of the parameters, each within 0 … 1. line: the line at such parameters. misses: by how much the
-    figures miss, from the sheets of the units. units: those whose figures are asked for. among: all units
-    between which cause and effect lie, and feeds.
+    figures miss, from the sheets of the units and the streams. units: those whose figures are asked for.
+    among: all units between which cause and effect lie, and feeds.
     """
 
     start: Any
     line: Callable[[Any], Flowsheet]
-    misses: Callable[[Any], Any]
+    misses: Callable[[Any, Any], Any]
     units: frozenset[str]
     among: frozenset[str]
 

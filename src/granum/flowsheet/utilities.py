@@ -12,9 +12,10 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.conversion import convert
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.kinds import MassFlow, MassRatio, Power, Ratio, SpecificEnergy
+from granum.core.kinds import KINDS, MassFlow, MassRatio, Power, Ratio, SpecificEnergy
 from granum.core.parameters import Parameter, outputs_of
 from granum.core.utilities import COOLING, ELECTRICITY, HEAT, carrier, purpose, sort_of
 from granum.costs.formulas.economics import energy_cost_rate, material_cost_rate
@@ -171,6 +172,21 @@ def streams_by_product(
     solid, mass = (jnp.stack([getattr(s, n) for s in leaving]) for n in ("solid_flow", "mass_flow"))
     chosen = jnp.argmax(jnp.where(jnp.sum(solid) > 0.0, solid, mass))
     return jnp.stack([figure(s) for s in leaving])[chosen]
+
+
+def price_parameter(name: str) -> Parameter:
+    """What a price of a carrier or a material is."""
+    word = "energy_price" if name in CARRIERS else "mass_price"
+    return Parameter(word, KINDS["EnergyPrice" if name in CARRIERS else "MassPrice"])
+
+
+def priced(line: Flowsheet, prices: Mapping[str, Any], where: str = "") -> dict[str, float]:
+    """Prices of what the units of a line may take, SI, or a refusal that names what they take."""
+    known = {carrier(n) for unit in line.order for n in type(line.units[unit]).utilities} - {"area"}
+    for name in prices:
+        if name not in known:
+            raise unknown_name(_("Utility"), name, sorted(known))
+    return {n: float(convert(v, price_parameter(n), " " + where)) for n, v in prices.items()}
 
 
 def cost_rate(taken: Mapping[str, float], prices: Mapping[str, Any]) -> float:

@@ -53,6 +53,7 @@ def _ratio(particle_diameter: Any, cut_size: Any) -> tuple[Any, Any]:
     source="lynch1977; tromp1937",
     title="Logistic partition curve",
     equation=r"G(x) = \frac{1}{1 + (d_{50}/x)^{n}}",
+    symbols={"particle_diameter": "x"},
 )
 class LogisticPartition(PartitionCurve):
     """S-shaped curve over the logarithm of size; its sharpness index is 9 to the power -1/n.
@@ -86,6 +87,7 @@ class LogisticPartition(PartitionCurve):
     source="plitt1976",
     title="Rosin–Rammler (Plitt) partition curve",
     equation=r"G(x) = 1 - \exp\!\left[-\ln 2\,(x/d_{50})^{n}\right]",
+    symbols={"particle_diameter": "x"},
 )
 class RosinRammlerPartition(PartitionCurve):
     """Corrected efficiency curve of hydrocyclones and screens.
@@ -116,6 +118,7 @@ class RosinRammlerPartition(PartitionCurve):
         r"G(x) = 1 - (1 - R_f)\frac{(1 + \beta \beta^* t)(e^{n} - 1)}{e^{n \beta^* t} + e^{n} - 2},\ t = "
         r"x/d_{50}"
     ),
+    symbols={"particle_diameter": "x"},
 )
 class WhitenPartition(PartitionCurve):
     """Whiten's efficiency curve, with an optional fish-hook; the factor beta* keeps the half value at the cut
@@ -164,6 +167,7 @@ def _has_hook(parameter: Any) -> bool:
     source="molerus1969",
     title="Molerus–Hoffmann partition curve",
     equation=r"G(x) = \left\{1 + (d_{50}/x)^2 \exp\left[n\left(1 - (x/d_{50})^2\right)\right]\right\}^{-1}",
+    symbols={"particle_diameter": "x"},
 )
 class MolerusHoffmannPartition(PartitionCurve):
     """Partition curve of air classifiers.
@@ -188,6 +192,7 @@ class MolerusHoffmannPartition(PartitionCurve):
     source="tromp1937",
     title="Ideal partition",
     equation=r"G(x) = 0\ (x < d_{50}),\ 1\ (x \ge d_{50})",
+    symbols={"particle_diameter": "x"},
 )
 class IdealPartition(PartitionCurve):
     """Everything below the cut size passes, everything above stays.
@@ -217,6 +222,7 @@ class IdealPartition(PartitionCurve):
     source="kelsall1953; lynch1977",
     title="Partition with a bypass",
     equation=r"G(x) = R_f + (1 - R_f)\,G_c(x)",
+    symbols={"particle_diameter": "x"},
 )
 class BypassedPartition(PartitionCurve):
     """A corrected curve with a part of every size, usually the water split, carried to the coarse product

@@ -79,6 +79,7 @@ def _positive(x: Any) -> tuple[Any, Any]:
     source="rosin1933; iso9276-3",
     title="Rosin–Rammler–Sperling–Bennett law",
     equation=r"Q(x) = 1 - \exp\!\left[-(x/x')^n\right]",
+    symbols={"particle_diameter": "x"},
 )
 class RosinRammler(SizeLaw):
     """Weibull law of ground products, by the size with 63.2 % below it and the uniformity exponent.
@@ -121,6 +122,7 @@ class RosinRammler(SizeLaw):
     source="iso9276-5; hatch1929",
     title="Log-normal law",
     equation=r"Q(x) = \Phi\!\left(\frac{\ln (x/d_{50})}{\ln\sigma_g}\right)",
+    symbols={"particle_diameter": "x"},
 )
 class LogNormal(SizeLaw):
     """Normal law over the logarithm of size, by median and geometric standard deviation.
@@ -166,6 +168,7 @@ class LogNormal(SizeLaw):
     source="iso9276-3",
     title="Normal law",
     equation=r"Q(x) = \Phi\!\left(\frac{x - d_{50}}{\sigma}\right)\ \text{cut at } x = 0",
+    symbols={"mean_diameter": "d_{50}", "particle_diameter": "x"},
 )
 class Normal(SizeLaw):
     """Normal law over the size, cut off and renormalized at 0, for narrow products.
@@ -217,6 +220,7 @@ class Normal(SizeLaw):
     source="schuhmann1940; iso9276-3",
     title="Gates–Gaudin–Schuhmann law",
     equation=r"Q(x) = (x/x_{\max})^n,\quad x \le x_{\max}",
+    symbols={"particle_diameter": "x"},
 )
 class GatesGaudinSchuhmann(SizeLaw):
     """Power law up to the largest size: a straight line on log–log axes.
@@ -257,6 +261,7 @@ class GatesGaudinSchuhmann(SizeLaw):
     source="gaudin1962",
     title="Gaudin–Meloy law",
     equation=r"Q(x) = 1 - (1 - x/x_{\max})^n,\quad x \le x_{\max}",
+    symbols={"particle_diameter": "x"},
 )
 class GaudinMeloy(SizeLaw):
     """Law of single fracture: linear at small sizes, with a largest size.
@@ -302,6 +307,7 @@ class GaudinMeloy(SizeLaw):
     source="iso9276-3",
     title="Mixture of two laws",
     equation=r"Q(x) = w\,Q_1(x) + (1 - w)\,Q_2(x)",
+    symbols={"particle_diameter": "x"},
 )
 class Mixture(SizeLaw):
     """Two populations on one basis, such as product and fines.

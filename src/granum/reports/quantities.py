@@ -420,8 +420,7 @@ def is_finding(p: Parameter) -> bool:
 def found_rows(run: Any) -> list[dict[str, str]]:
     """What design specifications found: the input and its value."""
     rows = []
-    for path, value in run.found.items():
+    for path, p, value in run.sought():
         unit, _dot, name = path.partition(".")
-        p = type(run.sheet.units[unit]).card.parameter(name)
         rows.append({"unit": unit, "name": name, "label": p.label, "text": value_text(value, p)})
     return rows

@@ -140,7 +140,9 @@ def stream_sheet(run: Any) -> dict[str, Any]:
         )
         for label, names in ((_("all feeds"), entering), (_("all products"), leaving))
     ]
+    largest = max(flows[""].values())
     return {
+        "empty": [name for name, x in flows[""].items() if x <= LEAST * largest],
         "heads": heads,
         "rows": [(name, [column[name] for column in columns]) for name in streams],
         "sums": sums,
@@ -148,6 +150,7 @@ def stream_sheet(run: Any) -> dict[str, Any]:
 
 
 PHASES = ("solid", "liquid", "gas")
+LEAST = 1e-12  # of the largest stream, below which one carries nothing
 
 
 def _share(stream: Any, phase: str, i: int, flow: float) -> str:

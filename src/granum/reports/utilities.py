@@ -6,7 +6,9 @@ from typing import Any, NamedTuple
 
 from granum.core.cards import Card
 from granum.core.i18n import _
+from granum.core.kinds import KINDS
 from granum.core.sources import cite
+from granum.core.units import show
 from granum.core.utilities import AREA, carrier, sort_of
 from granum.reports.quantities import value_text
 
@@ -34,6 +36,7 @@ class UtilityTable(NamedTuple):
     totals: list[tuple[str, str]]
     headline: tuple[str, str]
     product: str
+    taken: list[str]
 
 
 def carrier_label(name: str) -> str:
@@ -69,4 +72,21 @@ def utility_table(run: Any) -> UtilityTable:
     ]
     taken = {p.name: (p.label, value_text(value, p)) for p, value in run.totals() if value != 0.0}
     told = (taken[name] for name in ("energy_per_water", "energy_per_product") if name in taken)
-    return UtilityTable(rows, carriers, list(taken.values()), next(told, ("", "")), run.product)
+    bought = [n for n, value in run.carriers.items() if value > LEAST * largest[sort_of(kinds[n].name)]]
+    totals = [*taken.values(), *_costs(run, bought)]
+    return UtilityTable(rows, carriers, totals, next(told, ("", "")), run.product, bought)
+
+
+def _costs(run: Any, bought: list[str]) -> list[tuple[str, str]]:
+    """What the utilities cost in all and per product, and which of them have no price; nothing without
+    prices.
+    """
+    if not run.costs:
+        return []
+    rate = sum(run.costs.values())
+    rows = [(_("cost of utilities"), show(rate, KINDS["CostRate"], "USD/hour"))]
+    if (made := float(run.streams[run.product].mass_flow)) > 0.0:
+        rows.append((_("cost of utilities per product"), show(rate / made, KINDS["MassPrice"], "USD/tonne")))
+    if unpriced := [carrier_label(name) for name in bought if name not in run.costs]:
+        rows.append((_("without a price"), ", ".join(unpriced)))
+    return rows

@@ -22,6 +22,7 @@ from granum.numerics import safe_power
     name="logarithmic_stress",
     source="burger2011; declercq2008",
     equation=r"\sigma_e = \alpha\,\ln\frac{C - C_c + \beta}{\beta},\quad C > C_c",
+    symbols={"stress_scale": r"\alpha"},
     title="Logarithmic effective stress",
 )
 class LogarithmicStress(eqx.Module):

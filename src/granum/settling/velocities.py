@@ -23,6 +23,7 @@ from granum.particles.formulas.hindered import hindrance_richardson_zaki
     name="vesilind",
     source="vesilind1968",
     equation=r"v = v_0\,e^{-k C}",
+    symbols={"settling_velocity": "v"},
     title="Vesilind settling velocity",
     typical={"solids_concentration": (0.5, 12.0)},
 )
@@ -51,6 +52,7 @@ class Vesilind(eqx.Module):
         r"v = \max\left[0,\ \min\left(v_0',\ v_0\left(e^{-r_h(C-C_{ns})} - "
         r"e^{-r_p(C-C_{ns})}\right)\right)\right]"
     ),
+    symbols={"settling_velocity": "v"},
     title="Takács settling velocity",
 )
 class Takacs(eqx.Module):
@@ -83,6 +85,7 @@ class Takacs(eqx.Module):
     name="cole",
     source="cole1968",
     equation=r"v = \min\left[v_{\max},\ v_1\,(C/C_1)^{-n}\right]",
+    symbols={"settling_velocity": "v"},
     title="Cole settling velocity",
 )
 class Cole(eqx.Module):
@@ -112,6 +115,7 @@ class Cole(eqx.Module):
     name="diehl",
     source="diehl2015",
     equation=r"v = \frac{v_0}{1 + (C/\bar{C})^q}",
+    symbols={"settling_exponent": "q", "settling_velocity": "v"},
     title="Diehl settling velocity",
 )
 class Diehl(eqx.Module):
@@ -163,6 +167,7 @@ class RichardsonZakiConcentration(eqx.Module):
     name="hindered_particles",
     source="kynch1952; richardson1954",
     equation=r"v = v_t\,h(\varphi, \mathrm{Re}),\quad \varphi = C/\rho_s",
+    symbols={"settling_velocity": "v"},
     title="Settling velocity of hindered particles",
 )
 class HinderedParticles(eqx.Module):

@@ -27,8 +27,15 @@ from granum.flowsheet import Flowsheet
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
 from granum.flowsheet.ladder import RUNGS, at_rung, beginning
 from granum.flowsheet.specifications import Designed, Target
+from granum.flowsheet.stream_figures import (
+    changed,
+    feed_parameter,
+    given_value,
+    stream_figure,
+    stream_parameter,
+    told_of,
+)
 from granum.flowsheet.utilities import DRYING, FIGURES, WATER, totals
-from granum.streams.stream import Stream, median_of
 from granum.studies.subjects import (
     FINE,
     LOST,
@@ -45,22 +52,7 @@ from granum.studies.subjects import (
     split_index,
 )
 
-"""Largest part of what enters that a balance may lose before the line is no solution."""
-PHASES = {"liquid": "liquids", "solid": "solids", "gas": "gases"}
 UTILITIES = "utilities"  # of the line as a whole
-FLOWS = ("mass_flow", "liquid_flow", "solid_flow", "gas_flow")
-STREAM = {
-    **dict.fromkeys(FLOWS, "MassFlow"),
-    "temperature": "Temperature",
-    "pressure": "Pressure",
-    "moisture_dry_basis": "MoistureDryBasis",
-    "solids_mass_fraction": "MassFraction",
-    "solids_volume_fraction": "VolumeFraction",
-    "slurry_volume_flow": "VolumeFlow",
-    "gas_volume_flow": "VolumeFlow",
-    "enthalpy_flow": "Power",
-    "median_size": "Length",
-}
 
 
 @dataclass(frozen=True)
@@ -102,7 +94,7 @@ class LineSubject(Subject):
         head, *rest = plain.split(".")
         feed = self.sheet.feeds.get(head)
         if feed is not None and rest:
-            return Variable(path, self._feed_input(feed, head, rest))
+            return Variable(path, feed_parameter(feed, head, ".".join(rest)))
         keys = self.sheet.locate(plain)
         parameter = _declared(self.sheet.units[keys[0]], keys[1:])
         value = self.sheet.value(plain)
@@ -141,38 +133,9 @@ class LineSubject(Subject):
             )
         return Variable(path, parameter if index is None else replace(parameter, series=None))
 
-    def _feed_input(self, feed: Stream, head: str, rest: list[str]) -> Parameter:
-        where = _("of feed '{feed}'").format(feed=head)
-        fields = [
-            "temperature",
-            "pressure",
-            *FLOWS,
-            *(f"{p}.{s.name}" for p, own in PHASES.items() for s in getattr(feed.mixture, own)),
-        ]
-        word = ".".join(rest)
-        if word not in fields:
-            raise unknown_name(_("Input"), word, fields, where)
-        phase = rest[0].removesuffix("_flow")
-        if (len(rest) == 2 or phase in PHASES) and float(getattr(feed, f"{phase}_flow")) <= 0:
-            raise InputError(
-                _("Feed '{feed}' carries no {phase}: its flow cannot be varied.").format(
-                    feed=head, phase=_(phase)
-                )
-            )
-        return Parameter(
-            rest[-1] if len(rest) == 2 else word, KINDS["MassFraction" if len(rest) == 2 else STREAM[word]]
-        )
-
     def nominal(self, path: str) -> Any:
         plain, index = split_index(path)
-        head, *rest = plain.split(".")
-        feed = self.sheet.feeds.get(head)
-        if feed is not None:
-            if len(rest) == 2:
-                flows = _flows(feed, rest[0])
-                return float(flows[feed.mixture.index(PHASES[rest[0]], rest[1])] / jnp.sum(flows))
-            return float(getattr(feed, rest[0]))
-        value = self.sheet.value(plain)
+        value = given_value(self.sheet, plain)
         return float(value if index is None else value[index])
 
     def own_output(self, path: str) -> Variable:
@@ -195,24 +158,13 @@ class LineSubject(Subject):
                         _("'{name}' is a list: ask for one element, as in '{name}[0]'.").format(name=plain)
                     )
                 return Variable(path, known[name])
-        streams = {k.name for k in self.sheet.links}
-        for cut in (plain.rpartition("."), _before_species(plain)):
-            if cut[0] in streams:
-                return Variable(path, self._stream_figure(cut[0], cut[2]))
+        if (told := told_of(self.sheet.links, plain)) is not None:
+            link, word = told
+            mixture = next(iter(self.sheet.feeds.values())).mixture
+            return Variable(path, stream_parameter(mixture, link.name, word))
         if unit in self.sheet.units and "." in plain:
             raise unknown_name(_("Result"), name, known, _("of unit '{unit}'").format(unit=unit))
         raise unknown_name(_("Figure"), plain, (*self.outputs(), *self.quantities))
-
-    def _stream_figure(self, stream: str, word: str) -> Parameter:
-        mixture = next(iter(self.sheet.feeds.values())).mixture
-        species = [f"{p}.{s.name}" for p, own in PHASES.items() for s in getattr(mixture, own)]
-        if word in species:
-            return Parameter(word.partition(".")[2], KINDS["MassFraction"])
-        if word not in STREAM:
-            raise unknown_name(
-                _("Figure"), word, (*STREAM, *species), _("of stream '{stream}'").format(stream=stream)
-            )
-        return Parameter(word, KINDS[STREAM[word]])
 
     def outputs(self) -> tuple[str, ...]:
         own = [
@@ -274,10 +226,9 @@ class LineSubject(Subject):
                 uses = {u: sheets[u].uses for u in line.order}
                 figures = {u: sheets[u].figures for u in line.order}
                 return getattr(totals(line, uses, figures, streams), name)
-            stream, _dot, word = plain.rpartition(".")
-            if stream not in streams:
-                stream, _dot, word = _before_species(plain)
-            return stream_figure(streams[stream], word)
+            told = told_of(line.links, plain)
+            assert told is not None  # looked up in own_output
+            return stream_figure(streams[told[0].name], told[1])
 
         return Computed(lookup, code, beginning(line, self.targets, found))
 
@@ -289,26 +240,13 @@ class LineSubject(Subject):
     def _changed(self, sheet: Flowsheet, values: Mapping[str, Any]) -> Flowsheet:
         """The sheet with other values; figures of feeds first shares, then flows."""
         plain: dict[str, Any] = {}
-        feeds: dict[str, dict[str, Any]] = {}
         for path, value in values.items():
             name, index = split_index(path)
-            head, _dot, rest = name.partition(".")
-            if head in sheet.feeds:
-                feeds.setdefault(head, {})[rest] = value
-            elif index is None:
+            if index is None:
                 plain[name] = value
             else:
                 plain[name] = jnp.asarray(plain.get(name, sheet.value(name))).at[index].set(value)
-        sheet = sheet.with_values(plain)
-        if not feeds:
-            return sheet
-        changed = {
-            name: refed(stream, feeds[name]) if name in feeds else stream
-            for name, stream in sheet.feeds.items()
-        }
-        import equinox as eqx
-
-        return eqx.tree_at(lambda s: s.feeds, sheet, changed)
+        return changed(sheet, plain)
 
 
 def verdict(found: Designed) -> Any:
@@ -327,61 +265,6 @@ def verdict(found: Designed) -> Any:
         jnp.any(measured.lost) & met, code, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET)
     )
     return jnp.where(found.converged, code, unsettled)
-
-
-def _flows(stream: Stream, phase: str) -> Any:
-    return stream.solid_by_species if phase == "solid" else getattr(stream, phase)
-
-
-def refed(stream: Stream, values: Mapping[str, Any]) -> Stream:
-    """A feed with other shares, flows, temperature or pressure."""
-    for phase, own in PHASES.items():
-        shares = {word.partition(".")[2]: v for word, v in values.items() if word.startswith(phase + ".")}
-        if shares:
-            flows = _flows(stream, phase)
-            total = jnp.sum(flows)
-            place = np.array([stream.mixture.index(own, n) for n in shares])
-            named = jnp.zeros(flows.shape, bool).at[place].set(True)
-            rest = jnp.where(named, 0.0, flows)
-            others = jnp.sum(rest)
-            left = 1.0 - sum(shares.values())
-            new = jnp.where(others > 0, rest / jnp.where(others > 0, others, 1.0), 0.0) * left * total
-            new = new.at[place].set(jnp.stack([jnp.asarray(v) for v in shares.values()]) * total)
-            if phase == "solid":
-                ratio = jnp.where(flows > 0, new / jnp.where(flows > 0, flows, 1.0), 0.0)
-                stream = stream.replace(
-                    solid=stream.solid * ratio.reshape((-1,) + (1,) * (stream.solid.ndim - 1))
-                )
-            else:
-                stream = stream.replace(**{phase: new})
-    for word in FLOWS:
-        if word in values:
-            now = getattr(stream, word)
-            factor = values[word] / jnp.where(now > 0, now, 1.0)
-            phases = PHASES if word == "mass_flow" else (word.removesuffix("_flow"),)
-            stream = stream.replace(**{p: getattr(stream, p) * factor for p in phases})
-    return stream.replace(**{w: jnp.asarray(values[w]) for w in ("temperature", "pressure") if w in values})
-
-
-def stream_figure(stream: Stream, word: str) -> Any:
-    """One figure of a stream; shares are mass fractions within the phase."""
-    phase, dot, species = word.partition(".")
-    if dot:
-        flows = _flows(stream, phase)
-        total = jnp.sum(flows)
-        return flows[stream.mixture.index(PHASES[phase], species)] / jnp.where(total > 0, total, 1.0)
-    if word == "median_size":
-        return median_of(stream.size_fractions, stream.mixture.edges)
-    return getattr(stream, word)
-
-
-def _before_species(path: str) -> tuple[str, str, str]:
-    """``"purged.liquid.potassium nitrate"`` → stream, dot and ``"liquid.potassium nitrate"``."""
-    for phase in PHASES:
-        stream, dot, species = path.partition(f".{phase}.")
-        if dot:
-            return stream, ".", f"{phase}.{species}"
-    return "", "", path
 
 
 def _numeric(value: Any) -> bool:

@@ -1,7 +1,6 @@
-// Forms of a line: its substances, feeds, equipment and design specifications.
-import { colon, html, t, useState, useEffect } from './core.js';
+// Forms of a line: its substances, feeds and equipment.
+import { html, t, useState, useEffect } from './core.js';
 import { Field } from './form.js';
-import { Quantity } from './quantity.js';
 import { Choice, useSubstances, named } from './line_new.js';
 
 /** Feeds and equipment, each a closed form that opens when asked. */
@@ -75,7 +74,7 @@ export function Substances({ form, build }) {
                 names.filter((other) => other !== name),
               )}>×</button></span>`,
         )}
-        <${Choice} id=${'add-' + phase} label=${t('Add')} quiet rows=${offered(known, phase, liquids[0])} value="" pick=${(name) => name && set(phase, [...names, name])} /></div></div>`,
+        <${Choice} id=${'add-' + phase} label=${t('Add')} quiet rows=${offered(known, phase, liquids[0])} value="" pick=${(name) => name && !names.includes(name) && set(phase, [...names, name])} /></div></div>`,
     )}</details>`;
 }
 
@@ -83,49 +82,4 @@ function offered(known, phase, solvent) {
   if (!known) return [];
   if (phase !== 'liquids') return known[phase];
   return [...known.liquids, ...known.solutes.filter((s) => s.solvent === solvent)];
-}
-
-/** Design specifications: what is sought, which result it is to give, and where to look. */
-export function Specifications({ form, build }) {
-  const units = Object.entries(form.units).filter(([, unit]) => unit.parameters.length);
-  const inputs = units.flatMap(([name, unit]) =>
-    unit.parameters
-      .filter((p) => p.kind && !p.series && unit.values[p.name] !== undefined)
-      .map((p) => ({
-        value: `${name}.${p.name}`,
-        label: `${pretty(name)}${colon()} ${p.label}`,
-        p,
-        now: unit.values[p.name],
-      })),
-  );
-  const figures = Object.entries(form.units).flatMap(([name, unit]) =>
-    (unit.figures || []).map((p) => ({
-      value: `${name}.${p.name}`,
-      label: `${pretty(name)}${colon()} ${p.label}`,
-      p,
-    })),
-  );
-  const [draft, setDraft] = useState({ vary: '', so_that: '', equals: '', lower: '', upper: '' });
-  const set = (part) => setDraft((before) => ({ ...before, ...part }));
-  const input = inputs.find((one) => one.value === draft.vary);
-  const figure = figures.find((one) => one.value === draft.so_that);
-  const label = (list, path) => list.find((one) => one.value === path)?.label || pretty(path);
-  const menu = (id, text, list, value, pick) =>
-    html`<label class="end" for=${id}><span>${text}</span><select id=${id} value=${value} onChange=${(e) => pick(e.target.value)}><option value="">—</option>${list.map((one) => html`<option value=${one.value} selected=${one.value === value}>${one.label}</option>`)}</select></label>`;
-  const amount = (id, text, p, word) =>
-    html`<div class="end"><label for=${id}>${text}</label><div class="entry"><${Quantity} key=${id + p.name} p=${{ ...p, name: word }} id=${id} text=${draft[word]} label=${text} onChange=${(value) => set({ [word]: value })} /></div></div>`;
-  const whole = draft.vary && draft.so_that && draft.equals && draft.lower && draft.upper;
-  return html`<details data-specifications><summary>${t('Design specifications')} <span class="dim">${Object.keys(form.specifications).length || ''}</span></summary>
-    ${Object.entries(form.specifications).map(
-      ([name, spec]) =>
-        html`<p class="small" data-specification=${name}>${t('{input} is sought so that {figure} is {value}', { input: label(inputs, spec.vary), figure: label(figures, spec.so_that), value: spec.equals })} <span class="dim">(${spec.lower} … ${spec.upper})</span> <button class="button" onClick=${() => build('remove_specification', { name })}>${t('Remove')}</button></p>`,
-    )}
-    <div class="ports">${menu('spec-vary', t('sought'), inputs, draft.vary, (value) => set({ vary: value, lower: '', upper: '' }))}
-    ${menu('spec-figure', t('so that'), figures, draft.so_that, (value) => set({ so_that: value, equals: '' }))}
-    ${figure && amount('spec-equals', t('takes the value'), figure.p, 'equals')}
-    ${input && html`${amount('spec-lower', t('looked for from'), input.p, 'lower')}${amount('spec-upper', t('up to'), input.p, 'upper')}<p class="small dim">${t('now {value}', { value: input.now })}</p>`}
-    <button class="button" disabled=${!whole} onClick=${async () => {
-      if (await build('set_specification', draft))
-        setDraft({ vary: '', so_that: '', equals: '', lower: '', upper: '' });
-    }}>${t('Add the specification')}</button></div></details>`;
 }

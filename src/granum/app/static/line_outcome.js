@@ -5,7 +5,7 @@ import { pretty } from './line_forms.js';
 import { Sankey } from './sankey.js';
 import { Utilities } from './utilities.js';
 
-export function Outcome({ data, cases, clear, choose, place, text, compared, labels }) {
+export function Outcome({ data, cases, clear, choose, place, text, compared, labels, prices, build }) {
   const units = Object.entries(data.units);
   const failed = units.flatMap(([name, unit]) => unit.checks.filter((c) => !c.ok).map((c) => [name, c]));
   const kept = units.reduce((count, [, unit]) => count + unit.checks.filter((c) => c.ok).length, 0);
@@ -23,7 +23,7 @@ export function Outcome({ data, cases, clear, choose, place, text, compared, lab
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${pretty(flag.unit || '')}</strong> ${flag.message}</p>`)}</section>
     ${compared && html`<${Comparison} cases=${cases} clear=${clear} />`}
     <${StreamTable} table=${data.stream_table} place=${place} text=${text} choose=${choose} labels=${labels} />
-    <${Utilities} table=${data.utility_table} />
+    <${Utilities} table=${data.utility_table} prices=${prices} build=${build} />
     <${Sankey} diagrams=${data.sankey} />
     <h2>${t('Equipment')}</h2>${units.map(([name, unit]) => html`<details key=${name} data-sheet=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${unit.title || unit.model}</span>${unit.checks.some((c) => !c.ok) && html` <span class="out">✗</span>`}</summary><${UnitFigures} name=${name} unit=${unit} cases=${cases} /></details>`)}`;
 }

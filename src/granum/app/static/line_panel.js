@@ -18,7 +18,7 @@ export function Panel({ chosen, choose, form, data, cases, old, typedIn, build }
   const solved = unit && data?.units[name];
   return html`<section class="card panel" ref=${panel} data-panel=${name} aria-label=${pretty(name)}><div class="row spread"><h2 class="first">${pretty(name)} <span class="dim">${unit ? unit.title || unit.model : ''}</span></h2><div class="row">
     ${
-      (unit || feed) &&
+      (unit || feed || stream) &&
       html`<${Rename} key=${name} name=${name} rename=${async (next) => {
         const made = await build('rename', { old: name, new: next });
         if (made) choose({ sort, name: made });

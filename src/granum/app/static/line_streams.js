@@ -5,6 +5,8 @@ import { pretty } from './line_forms.js';
 
 export function StreamTable({ table, place = '', text, choose, labels }) {
   const [problem, setProblem] = useState('');
+  const [all, setAll] = useState(false);
+  const rows = all ? table.rows : table.rows.filter(([name]) => !table.empty.includes(name));
   const take = async (form) => {
     setProblem('');
     try {
@@ -20,9 +22,19 @@ export function StreamTable({ table, place = '', text, choose, labels }) {
   };
   return html`<div class="row spread"><h2>${t('Streams')}</h2><div class="row"><button class="button" onClick=${() => take('csv')}>CSV</button><button class="button" onClick=${() => take('xlsx')}>Excel</button></div></div>
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
-    <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table class="streams"><thead><tr><th scope="col">${t('stream')}</th>${table.heads.map((head) => html`<th class="n" scope="col" data-phase=${head.phase}>${head.label}<span class="dim"> / ${head.unit}</span></th>`)}</tr></thead>
-    <tbody>${table.rows.map(([name, cells]) => html`<tr><th scope="row">${choose ? html`<button class="name" onClick=${() => choose({ sort: 'stream', name })}>${labels[name] || pretty(name)}</button>` : labels[name] || pretty(name)}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}</tr>`)}
-    ${table.sums.map(([label, cells]) => html`<tr class="sum"><th scope="row">${label}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}${table.heads.slice(cells.length).map(() => html`<td></td>`)}</tr>`)}</tbody></table></div>`;
+    <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')} data-streams><table class="streams"><thead><tr><th scope="col">${t('stream')}</th>${table.heads.map((head) => html`<th class="n" scope="col" data-phase=${head.phase}>${head.label}<span class="dim">${head.unit}</span></th>`)}</tr></thead>
+    <tbody>${rows.map(([name, cells]) => html`<tr><th scope="row">${choose ? html`<button class="name" onClick=${() => choose({ sort: 'stream', name })}>${labels[name] || pretty(name)}</button>` : labels[name] || pretty(name)}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}</tr>`)}
+    ${table.sums.map(([label, cells]) => html`<tr class="sum"><th scope="row">${label}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}${table.heads.slice(cells.length).map(() => html`<td></td>`)}</tr>`)}</tbody></table></div>
+    ${
+      table.empty.length > 0 &&
+      html`<p class="small"><button class="link" data-empty aria-expanded=${String(all)} onClick=${() => setAll(!all)}>${
+        all
+          ? t('Hide what carries nothing')
+          : table.empty.length === 1
+            ? t('One stream carries nothing: show it')
+            : t('{count} streams carry nothing: show them', { count: table.empty.length })
+      }</button></p>`
+    }`;
 }
 
 export function StreamPanel({ stream: s }) {

@@ -18,12 +18,13 @@ import {
 import { order } from './cards.js';
 import { caseAt, drafted, keepDraft, packed } from './drafts.js';
 import { Editor } from './line_editor.js';
-import { Forms, Specifications, Substances } from './line_forms.js';
+import { Forms, Substances } from './line_forms.js';
 import { NewLine } from './line_new.js';
 import { Outcome } from './line_outcome.js';
 import { Palette } from './line_palette.js';
 import { Panel } from './line_panel.js';
 import { Sheet } from './line_sheet.js';
+import { Specifications } from './line_specifications.js';
 
 const MOST_KEPT = 2;
 const STEPS = 100; // that can be taken back
@@ -216,8 +217,10 @@ export function Lines({ state }) {
         await change(found.case);
         const now = await ask('/api/case/form', { case: found.case, across: across.current });
         const fresh = (table) => Object.keys(now[table]).find((name) => !(name in (before?.[table] || {})));
+        const streams = (found) => (found?.ends.origins || []).map((end) => end.stream);
+        const stream = () => streams(now).find((name) => !streams(before).includes(name));
         return operation === 'add_unit' || operation === 'rename'
-          ? fresh('units') || fresh('feeds') || true
+          ? fresh('units') || fresh('feeds') || stream() || true
           : operation === 'add_feed'
             ? fresh('feeds') || true
             : true;
@@ -402,5 +405,5 @@ export function Lines({ state }) {
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
     <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} />`}</div>
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
-    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} /></div>`}</section></main>`;
+    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} prices=${form?.prices} build=${build} /></div>`}</section></main>`;
 }

@@ -166,6 +166,12 @@ export const french = {
     'Solide, liquide et gaz ont leurs couleurs ; chaleur et travail sont en rouge.',
   'Energy counts from liquid water and dry substances at 25 °C, so that vapor carries its heat of vaporization; what is colder is drawn the other way.':
     'L’énergie se compte à partir de l’eau liquide et des substances sèches à 25 °C, si bien que la vapeur porte sa chaleur de vaporisation ; ce qui est plus froid est tracé à rebours.',
+  'Prices': 'Prix',
+  'In US dollars, or any currency that is used for all of them; the costs then stand in the table.':
+    'En dollars, ou dans toute monnaie employée pour tous ; les coûts figurent alors dans le tableau.',
+  'Hide what carries nothing': 'Masquer les courants vides',
+  'One stream carries nothing: show it': 'Un courant est vide : l’afficher',
+  '{count} streams carry nothing: show them': '{count} courants sont vides : les afficher',
   'utility': 'utilité',
   'whole line': 'ligne entière',
   'Product: {stream}. In brackets: given by another unit of the line, and not counted.':
@@ -373,7 +379,8 @@ export const french = {
   '{input} is sought so that {figure} is {value}': '{input} est cherché pour que {figure} vaille {value}',
   'Design specifications': 'Spécifications de conception',
   'sought': 'cherché',
-  'so that': 'pour que',
+  'so that, in': 'pour que, dans',
+  'this figure': 'cette grandeur',
   'takes the value': 'prenne la valeur',
   'looked for from': 'cherché à partir de',
   'up to': 'jusqu’à',

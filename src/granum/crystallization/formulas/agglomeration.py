@@ -41,6 +41,7 @@ class AgglomerationKernel(eqx.Module):
     source="smoluchowski1917",
     title="Constant agglomeration kernel",
     equation=r"\beta = \beta_0",
+    symbols={"crystal_size_other": r"\lambda"},
 )
 class ConstantKernel(AgglomerationKernel):
     """The same kernel for every pair, in m³/s."""
@@ -57,6 +58,7 @@ class ConstantKernel(AgglomerationKernel):
     source="golovin1963; kumar2006",
     title="Sum kernel",
     equation=r"\beta = \beta_0 (L^3 + \lambda^3)",
+    symbols={"crystal_size_other": r"\lambda"},
 )
 class SumKernel(AgglomerationKernel):
     """Kernel proportional to the sum of the cubes of the sizes, the coefficient in 1/s."""
@@ -73,6 +75,7 @@ class SumKernel(AgglomerationKernel):
     source="kumar2006",
     title="Product kernel",
     equation=r"\beta = \beta_0 L^3 \lambda^3",
+    symbols={"crystal_size_other": r"\lambda"},
 )
 class ProductKernel(AgglomerationKernel):
     """Kernel proportional to the product of the cubes of the sizes; the coefficient is in 1/(m³ s) and
@@ -175,6 +178,7 @@ def shear_rate_turbulent(
     fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)},
     title="Brownian (perikinetic) kernel",
     equation=r"\beta = \frac{2 k T}{3\eta}\frac{(L+\lambda)^2}{L\lambda}",
+    symbols={"crystal_size_other": r"\lambda"},
 )
 class BrownianKernel(AgglomerationKernel):
     """Agglomeration by Brownian motion, for crystals below a micrometer.
@@ -205,6 +209,7 @@ class BrownianKernel(AgglomerationKernel):
     source="saffman1956",
     title="Turbulent shear (orthokinetic) kernel",
     equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,(L+\lambda)^3/8",
+    symbols={"crystal_size_other": r"\lambda"},
 )
 class TurbulentKernel(AgglomerationKernel):
     """Agglomeration in the small eddies of a stirred suspension, with the share of collisions that last."""
@@ -242,6 +247,7 @@ class Breakage(eqx.Module):
     source="ziff1985; austin1984",
     title="Breakage with a power of size, uniform fragments",
     equation=r"S = S_0 (L/L_{ref})^p,\quad b(v, v') = 2/v'",
+    symbols={"reference_size": "L_{ref}"},
 )
 class PowerBreakage(Breakage):
     """Breakage frequency as a power of size; each break gives two fragments, every split of the volume being
@@ -270,6 +276,7 @@ class PowerBreakage(Breakage):
     fitted={"chip_fraction": (0.0, 0.5)},
     title="Attrition: small chips from large crystals",
     equation=r"S = S_0 (L/L_{ref})^p,\quad \text{chips of volume share } w",
+    symbols={"reference_size": "L_{ref}"},
 )
 class Attrition(Breakage):
     """Chipping: each event takes a small share of the volume off a crystal as chips spread evenly in volume

@@ -28,6 +28,7 @@ class DrivingForce(eqx.Module):
     source="mullin2001, ch. 3",
     title="Relative supersaturation (C − C*)/C*",
     equation=r"\sigma = (C - C^*)/C^*",
+    symbols={"driving_force": r"\sigma"},
 )
 class RelativeSupersaturation(DrivingForce):
     """Relative supersaturation on anhydrous solute per mass of solvent."""
@@ -42,6 +43,7 @@ class RelativeSupersaturation(DrivingForce):
     source="mullin2001, ch. 3",
     title="Absolute supersaturation C − C*",
     equation=r"\Delta C = C - C^*",
+    symbols={"driving_force": r"\Delta C"},
 )
 class AbsoluteSupersaturation(DrivingForce):
     """Absolute supersaturation in kg of anhydrous solute per kg of solvent."""
@@ -55,7 +57,7 @@ class AbsoluteSupersaturation(DrivingForce):
     name="logarithmic",
     source="mullin2001, ch. 3",
     title="Logarithm of the supersaturation ratio",
-    equation=r"\ln(C/C^*)",
+    equation=r"S = \ln(C/C^*)",
 )
 class LogarithmicSupersaturation(DrivingForce):
     """Logarithm of the supersaturation ratio, the thermodynamic driving force of an ideal solution."""
@@ -69,7 +71,8 @@ class LogarithmicSupersaturation(DrivingForce):
     name="molar",
     source="mullin2001, ch. 3",
     title="Molar supersaturation in kmol per cubic meter of solvent",
-    equation=r"\Delta C\,\rho_{solvent} / M",
+    equation=r"S = \Delta C\,\rho_{solvent} / M",
+    symbols={"liquid_density": r"\rho_{solvent}"},
 )
 class MolarSupersaturation(DrivingForce):
     """Absolute supersaturation in kmol of solute per cubic meter of solvent."""

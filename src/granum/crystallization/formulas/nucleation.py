@@ -347,7 +347,11 @@ class PowerLawNucleation(NucleationLaw):
     source="mullin2001, ch. 5; volmer1939",
     fitted={"heterogeneous_factor": (0.0, 1.0)},
     title="Classical primary nucleation",
-    equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)",
+    equation=(
+        r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right),\quad "
+        r"v_m = \frac{M}{\rho_c N_A}"
+    ),
+    symbols={"nucleation_rate": "J"},
 )
 class ClassicalNucleation(NucleationLaw):
     """Primary nucleation of classical theory, homogeneous or heterogeneous.

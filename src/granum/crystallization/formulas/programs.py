@@ -89,6 +89,7 @@ class PowerCooling(Program):
     source="mullin1971",
     title="Natural cooling",
     equation=r"T = T_j + (T_0 - T_j)\,e^{-t/\tau}",
+    symbols={"cooling_time": r"\tau"},
 )
 class NaturalCooling(Program):
     """Cooling towards a constant jacket temperature, fast at first: the exponential of an uncontrolled
@@ -110,7 +111,8 @@ class NaturalCooling(Program):
     name="temperature_points",
     source="mullin1971",
     title="Temperature by points",
-    equation=r"T(t) \text{ linear between points}",
+    equation=r"T(t) \text{ linear between points}\ (t_i,\ T_i)",
+    symbols={"time_points": "t_i", "temperature": "T_i"},
 )
 class TemperaturePoints(Program):
     """Temperature by points in time, straight in between, constant outside: a recipe, or a logged batch."""
@@ -129,7 +131,7 @@ class TemperaturePoints(Program):
     name="cooling_shares",
     source="jones1974",
     title="Cooling by shares of the temperature fall",
-    equation=r"T(t_k) = T_0 - (T_0 - T_f)\frac{\sum_{i \le k} s_i}{\sum_i s_i}",
+    equation=r"T(t_k) = T_0 - (T_0 - T_f)\frac{\sum_{i \le k} s_i}{\sum_i s_i},\quad t_k = \frac{k}{n}\,t_f",
 )
 class CoolingShares(Program):
     """Cooling that never heats: the shares of the temperature fall in equal intervals of time, straight

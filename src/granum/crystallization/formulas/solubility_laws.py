@@ -66,6 +66,7 @@ class LibrarySolubility(SolubilityLaw):
     source="mullin2001, ch. 3",
     title="Solubility by a polynomial in °C",
     equation=r"C^* = \sum_k a_k (T - 273.15)^k",
+    symbols={"coefficients": "a_k"},
 )
 class PolynomialSolubility(SolubilityLaw):
     """Solubility as a polynomial in the temperature in degrees Celsius, lowest power first, in kg per kg of
@@ -94,7 +95,7 @@ def from_mole_fraction(x: Any, solute: Any, solvent: Any) -> Any:
     name="apelblat_solubility",
     source="apelblat1999",
     title="Solubility by Apelblat's equation",
-    equation=r"\ln x = A + B/T + C \ln T",
+    equation=r"\ln x = A + B/T + C \ln T,\quad C^* = \frac{M}{M_s}\,\frac{x}{1 - x}",
 )
 class ApelblatSolubility(SolubilityLaw):
     """Mole fraction at saturation by the modified Apelblat equation, T in kelvin."""
@@ -115,7 +116,7 @@ class ApelblatSolubility(SolubilityLaw):
     name="vant_hoff_solubility",
     source="mullin2001, ch. 3",
     title="Solubility by the van 't Hoff equation",
-    equation=r"\ln x = -\frac{\Delta H}{R T} + \frac{\Delta S}{R}",
+    equation=r"\ln x = -\frac{\Delta H}{R T} + \frac{\Delta S}{R},\quad C^* = \frac{M}{M_s}\,\frac{x}{1 - x}",
 )
 class VantHoffSolubility(SolubilityLaw):
     """Mole fraction at saturation by the van 't Hoff equation: one enthalpy and one entropy of

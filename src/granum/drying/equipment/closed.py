@@ -179,7 +179,11 @@ class AbstractCoilCircuit(AbstractCircuit):
     name="circuit_heat_pump",
     source="mujumdar2014; keey1978",
     title="Closed circuit of gas with a heat pump",
-    equation=r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\quad P = \frac{\dot Q_e}{\mathrm{COP} - 1}",
+    equation=(
+        r"\mathrm{COP} = \eta_C\frac{T + \Delta T}{T - T_b + 2\,\Delta T},\quad "
+        r"P = \frac{\dot Q_e}{\mathrm{COP} - 1},\quad "
+        r"\dot Q_e = \dot m_g\,(h(T_2, \varphi_2) - h_e) - \dot m_c h_c"
+    ),
 )
 class HeatPumpCircuit(AbstractCoilCircuit):
     """Gas leaves the dryer with a relative humidity, sheds its vapor on the evaporator (part of it passes by)
@@ -231,7 +235,11 @@ class HeatPumpCircuit(AbstractCoilCircuit):
     name="circuit_condenser",
     source="mujumdar2014; keey1978",
     title="Closed circuit of gas with a condenser",
-    equation=r"\dot Q_e = \dot m_g\,(h_2 - h_e) - \dot m_c h_c",
+    equation=(
+        r"\dot Q_e = \dot m_g\,(h_2 - h_e) - \dot m_c h_c,\quad h_2 = h(T_2, \varphi_2),\ "
+        r"h_e = b\,h_2 + (1 - b)\,h(T_b, 1)"
+    ),
+    symbols={"coil_bypass_fraction": "b"},
 )
 class CondenserCircuit(AbstractCoilCircuit):
     """Gas leaves the dryer with a relative humidity, sheds its vapor on a coil cooled from outside (part of
@@ -278,6 +286,7 @@ class CondenserCircuit(AbstractCoilCircuit):
     fitted={"pressure_condensing": (611.213, 16.529e6)},
     title="Closed circuit of superheated vapor",
     equation=r"M = \frac{\dot Q}{h_v(T_1) - h_v(T_2)},\quad P = \dot m_e\,w(p, p_c)\,\frac{T_2}{T_b}",
+    symbols={"temperature_outlet": "T_2"},
 )
 class SteamCircuit(AbstractCircuit):
     """Superheated steam (or vapor of another solvent) at the pressure of the feed; what evaporates leaves as

@@ -187,7 +187,10 @@ class SurfaceKinetics(_Curved):
     name="kinetics_van_meel",
     source="vanmeel1958; keey1978",
     title="Kinetics of van Meel, rate of the wet bulb",
-    equation=r"-\frac{dX}{dt} = f(\Phi)\,\frac{h a}{c_v}\ln\left[1+\frac{c_v (T_g-T_w)}{L_v}\right]",
+    equation=(
+        r"-\frac{dX}{dt} = f(\Phi)\,\frac{h a}{c_v}\ln\left[1+\frac{c_v (T_g-T_w)}{L_v}\right],\quad "
+        r"\Phi = \frac{X-X_e}{X_c-X_e}"
+    ),
 )
 class VanMeelKinetics(_Curved):
     """Rate of a wet surface at the wet bulb of the local gas times the characteristic curve: van Meel's own

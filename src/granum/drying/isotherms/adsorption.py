@@ -31,6 +31,7 @@ def _langmuir_like_inverse(X: Any, m: Any, C: Any) -> Any:
     fitted={"water_activity": (0.05, 0.5)},
     title="BET isotherm",
     equation=r"X = \frac{m\,C\,a}{(1-a)(1-a+C\,a)}",
+    symbols={"monolayer_moisture": "m", "water_activity": "a"},
 )
 class Bet(AbstractIsotherm):
     """Brunauer, Emmett and Teller: a monolayer of bound water and layers of free water above it. Holds up to
@@ -62,6 +63,7 @@ class Bet(AbstractIsotherm):
     source="brunauer1938",
     title="BET isotherm with a finite number of layers",
     equation=r"X = \frac{m\,C\,a}{1-a}\,\frac{1-(n+1)a^n+n\,a^{n+1}}{1+(C-1)a-C\,a^{n+1}}",
+    symbols={"monolayer_moisture": "m", "water_activity": "a"},
 )
 class BetLayers(AbstractIsotherm):
     """BET isotherm whose layers stop at a number n: one layer is Langmuir's isotherm, infinitely many the
@@ -98,6 +100,12 @@ class BetLayers(AbstractIsotherm):
         r"X = \frac{m\,C\,K a}{(1-Ka)(1-Ka+C\,Ka)},\quad m = m_0 e^{H_m/RT},\ C = C_0 e^{H_C/RT},\ K = K_0 "
         r"e^{H_K/RT}"
     ),
+    symbols={
+        "monolayer_moisture": "m_0",
+        "monolayer_constant": "C_0",
+        "multilayer_constant": "K_0",
+        "water_activity": "a",
+    },
 )
 class Gab(AbstractIsotherm):
     """Guggenheim, Anderson and de Boer: BET with multilayer water bound differently from free water; to a
@@ -147,7 +155,8 @@ class Gab(AbstractIsotherm):
     source="hailwood1946; glass2010, eq. 4-5",
     fitted={"water_activity": (0.05, 0.95), "temperature": (272.05, 405.35)},
     title="Hailwood–Horrobin isotherm of wood",
-    equation=r"M = \frac{1800}{W}\left[\frac{Ka}{1-Ka}+\frac{K_1Ka+2K_1K_2K^2a^2}{1+K_1Ka+K_1K_2K^2a^2}\right]",  # noqa: E501
+    equation=r"M = \frac{1800}{W}\left[\frac{Ka}{1-Ka}+\frac{K_1Ka+2K_1K_2K^2a^2}{1+K_1Ka+K_1K_2K^2a^2}\right]",  # noqa: E501,
+    symbols={"water_activity": "a"},
 )
 class HailwoodHorrobin(AbstractIsotherm):
     """Equilibrium moisture of wood, two hydrates and dissolved water, with the coefficients of the Wood

@@ -36,6 +36,7 @@ class _Called(AbstractIsotherm):
     fitted={"water_activity": (0.2, 0.95)},
     title="Oswin isotherm",
     equation=r"X = (A + A_1 t)\left(\frac{a}{1-a}\right)^B",
+    symbols={"water_activity": "a"},
 )
 class Oswin(_Called):
     """Oswin's power of a/(1 − a), with the coefficient linear in °C; starch, meat, vegetables.
@@ -72,6 +73,7 @@ class Oswin(_Called):
     fitted={"water_activity": (0.2, 0.95)},
     title="Lewicki isotherm, two parameters",
     equation=r"X = A\left(\frac1a-1\right)^{B-1}",
+    symbols={"water_activity": "a"},
 )
 class LewickiTwo(_Called):
     """Lewicki's two-parameter form: the curve of Oswin with exponent 1 − B.
@@ -102,6 +104,12 @@ class LewickiTwo(_Called):
     source="lewicki1998",
     title="Lewicki isotherm, three parameters",
     equation=r"X = \frac{F}{(1-a)^G} - \frac{F}{1+a^H}",
+    symbols={
+        "isotherm_coefficient": "F",
+        "isotherm_exponent": "G",
+        "isotherm_exponent_second": "H",
+        "water_activity": "a",
+    },
 )
 class LewickiThree(_Called):
     """Lewicki's three-parameter form for foods over the whole range.
@@ -137,6 +145,7 @@ class LewickiThree(_Called):
     fitted={"water_activity": (0.1, 0.8)},
     title="Halsey isotherm",
     equation=r"a = \exp(-A\,X^{-B})",
+    symbols={"water_activity": "a"},
 )
 class Halsey(_Called):
     """Halsey's condensation at a distance from the surface; starchy foods, 0.1 to 0.8.
@@ -163,6 +172,7 @@ class Halsey(_Called):
     fitted={"water_activity": (0.0, 0.95)},
     title="Ferro-Fontán isotherm",
     equation=r"\ln\frac{\gamma}{a} = b\,X^{-r}",
+    symbols={"isotherm_coefficient": "b", "isotherm_exponent": "r", "water_activity": "a"},
 )
 class FerroFontan(_Called):
     """Ferro-Fontán and coworkers: Halsey with a structure factor γ near 1 that widens the range to 0.95.
@@ -201,6 +211,7 @@ class FerroFontan(_Called):
     fitted={"water_activity": (0.2, 0.95)},
     title="Henderson isotherm",
     equation=r"1 - a = \exp(-A\,T\,X^{B})",
+    symbols={"water_activity": "a"},
 )
 class Henderson(_Called):
     """Henderson's form with the absolute temperature; X a mass ratio, T in kelvin.
@@ -234,6 +245,7 @@ class Henderson(_Called):
     fitted={"water_activity": (0.3, 0.95)},
     title="Smith isotherm",
     equation=r"X = A - B\,\ln(1-a)",
+    symbols={"isotherm_coefficient_second": "B", "water_activity": "a"},
 )
 class Smith(_Called):
     """Smith's logarithmic form for high polymers, from 0.3 to 0.9 or 0.95.
@@ -261,6 +273,13 @@ class Smith(_Called):
     source="peleg1993",
     title="Peleg isotherm",
     equation=r"X = k_1 a^{n_1} + k_2 a^{n_2}",
+    symbols={
+        "isotherm_coefficient": "k_1",
+        "isotherm_exponent": "n_1",
+        "isotherm_coefficient_second": "k_2",
+        "isotherm_exponent_second": "n_2",
+        "water_activity": "a",
+    },
 )
 class Peleg(_Called):
     """Peleg's two powers, one below and one above 1: as good as GAB and finite at a = 1.
@@ -296,6 +315,13 @@ class Peleg(_Called):
     source="condon2006",
     title="Double-log polynomial (DLP)",
     equation=r"X = b_0 + b_1\chi + b_2\chi^2 + b_3\chi^3,\quad \chi = \ln(-\ln a)",
+    symbols={
+        "isotherm_coefficient": "b_0",
+        "isotherm_coefficient_second": "b_1",
+        "isotherm_coefficient_third": "b_2",
+        "isotherm_coefficient_fourth": "b_3",
+        "water_activity": "a",
+    },
 )
 class DoubleLog(_Called):
     """Cubic in ln(−ln a), for dense dynamic-vapor-sorption data; do not extrapolate it.
@@ -330,6 +356,7 @@ class DoubleLog(_Called):
     source="iglesias1978",
     title="Iglesias–Chirife isotherm",
     equation=r"\ln\left[X+(X^2+X_{0.5})^{1/2}\right] = B_1 a + B_2",
+    symbols={"isotherm_coefficient": "B_1", "isotherm_coefficient_second": "B_2", "water_activity": "a"},
 )
 class IglesiasChirife(_Called):
     """Iglesias and Chirife's form for sugar-rich fruit; needs the moisture at a water activity of 0.5, as
@@ -365,6 +392,7 @@ class IglesiasChirife(_Called):
     fitted={"water_activity": (0.0, 0.85)},
     title="Caurie isotherm",
     equation=r"\ln X = A + B\,a",
+    symbols={"isotherm_coefficient_second": "B", "water_activity": "a"},
 )
 class Caurie(_Called):
     """Caurie's exponential, from no water to 0.85.
@@ -395,6 +423,7 @@ class Caurie(_Called):
     fitted={"water_activity": (0.0, 0.5)},
     title="Kuhn isotherm",
     equation=r"X = \frac{A}{-\ln a} + B",
+    symbols={"isotherm_coefficient_second": "B", "water_activity": "a"},
 )
 class Kuhn(_Called):
     """Kuhn's potential form, below 0.5. Written with −ln a so that A is positive.
@@ -421,6 +450,7 @@ class Kuhn(_Called):
     fitted={"water_activity": (0.2, 0.95)},
     title="Bradley isotherm",
     equation=r"-\ln a = K_2 K_1^{X}",
+    symbols={"isotherm_coefficient": "K_2", "water_activity": "a"},
 )
 class Bradley(_Called):
     """Bradley's polarized layers: at one temperature the curve of Chung and Pfost.
@@ -453,6 +483,7 @@ class Bradley(_Called):
     fitted={"water_activity": (0.2, 0.95)},
     title="Chen isotherm",
     equation=r"\ln a = K - A\,e^{-B X}",
+    symbols={"water_activity": "a"},
 )
 class Chen(_Called):
     """Chen's form; with K = 0, for products with little bound water, it is the curve of Chung and Pfost.

@@ -30,6 +30,7 @@ def _celsius(T: Any) -> Any:
     fitted={"water_activity": (0.2, 0.95)},
     title="Modified Henderson isotherm",
     equation=r"1 - a = \exp\left[-K\,(t + C)\,M^{N}\right],\quad M\text{ in }\mathrm{\%}",
+    symbols={"isotherm_coefficient": "K", "isotherm_exponent": "N", "water_activity": "a"},
 )
 class HendersonModified(_Called):
     """Thompson's modification of Henderson for grains; the printed coefficients take moisture in percent, dry
@@ -67,6 +68,7 @@ class HendersonModified(_Called):
     fitted={"water_activity": (0.2, 0.95)},
     title="Modified Chung–Pfost isotherm",
     equation=r"a = \exp\left[-\frac{A}{t+C}\,e^{-B X}\right]",
+    symbols={"water_activity": "a"},
 )
 class ChungPfost(_Called):
     """Chung and Pfost's potential theory, modified with a temperature offset; moisture as a mass ratio.
@@ -109,6 +111,7 @@ class ChungPfost(_Called):
     fitted={"water_activity": (0.2, 0.95)},
     title="Modified Halsey isotherm",
     equation=r"a = \exp\left[-e^{A + B t}\,M^{-C}\right],\quad M\text{ in }\mathrm{\%}",
+    symbols={"isotherm_coefficient_per_celsius": "B", "isotherm_exponent": "C", "water_activity": "a"},
 )
 class HalseyModified(_Called):
     """Halsey with an exponential temperature factor, the standard's choice for oilseeds; coefficients for
@@ -145,6 +148,7 @@ class HalseyModified(_Called):
     fitted={"water_activity": (0.2, 0.95)},
     title="Modified Oswin isotherm",
     equation=r"M = (A + B t)\left(\frac{a}{1-a}\right)^{1/C},\quad M\text{ in }\mathrm{\%}",
+    symbols={"isotherm_coefficient_per_celsius": "B", "isotherm_exponent": "C", "water_activity": "a"},
 )
 class OswinModified(_Called):
     """Oswin with a coefficient linear in °C, printed for moisture in percent and with the inverse exponent.

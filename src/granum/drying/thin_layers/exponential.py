@@ -105,6 +105,7 @@ class PageModified(_Called):
     source="corzo2008",
     title="Thin layer, Weibull",
     equation=r"MR = e^{-(t/\beta)^\alpha}",
+    symbols={"time_exponent": r"\alpha"},
 )
 class Weibull(_Called):
     """Page's curve with a time scale: after it, 63 % of the moisture has gone.
@@ -195,6 +196,7 @@ class Logarithmic(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, two-term",
     equation=r"MR = a\,e^{-k_1 t} + b\,e^{-k_2 t}",
+    symbols={"rate_constant": "k_1", "model_factor_second": "b", "rate_constant_second": "k_2"},
 )
 class TwoTerm(_Called):
     """Two exponentials with free factors.
@@ -264,6 +266,7 @@ class TwoTermExponential(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, Verma",
     equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-gt}",
+    symbols={"rate_constant_second": "g"},
 )
 class Verma(_Called):
     """Two exponentials that start at 1.
@@ -328,6 +331,12 @@ class DiffusionApproach(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, modified Henderson–Pabis",
     equation=r"MR = a\,e^{-kt} + b\,e^{-gt} + c\,e^{-ht}",
+    symbols={
+        "model_factor_second": "b",
+        "rate_constant_second": "g",
+        "model_factor_third": "c",
+        "rate_constant_third": "h",
+    },
 )
 class HendersonPabisModified(_Called):
     """Three exponentials; six parameters that few data can tell apart.

@@ -63,6 +63,7 @@ class Midilli(_Called):
     title="Thin layer, four-parameter Weibull",
     equation=r"MR = a - b\,e^{-k t^n}",
     typical={"model_factor": (-1.1, -0.9)},
+    symbols={"model_offset": "a", "model_factor": "b"},
 )
 class WeibullFour(_Called):
     """Weibull's curve between two free levels; b is negative for drying.
@@ -97,6 +98,7 @@ class WeibullFour(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, Demir",
     equation=r"MR = a\,e^{-(kt)^n} + b",
+    symbols={"model_offset": "b"},
 )
 class Demir(_Called):
     """Modified Page between two free levels: the curve of the four-parameter Weibull.
@@ -132,6 +134,7 @@ class Demir(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, Hii",
     equation=r"MR = a\,e^{-k t^n} + c\,e^{-g t^n}",
+    symbols={"model_factor_second": "c", "rate_constant_second": "g"},
 )
 class Hii(_Called):
     """Two stretched exponentials of one exponent.
@@ -178,6 +181,7 @@ class Hii(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, Wang–Singh",
     equation=r"MR = 1 + a t + b t^2",
+    symbols={"time_slope": "a", "time_curvature": "b"},
 )
 class WangSingh(_Called):
     """Parabola that starts at 1; holds only inside the data, and turns up after its lowest point.
@@ -208,6 +212,7 @@ class WangSingh(_Called):
     title="Thin layer, parabolic",
     equation=r"MR = a + b t + c t^2",
     typical={"model_offset": (0.9, 1.1)},
+    symbols={"model_offset": "a"},
 )
 class Parabolic(_Called):
     """Parabola with a free start.
@@ -238,6 +243,7 @@ class Parabolic(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, Peleg",
     equation=r"MR = 1 - \frac{t}{a + b t}",
+    symbols={"time_scale": "a"},
 )
 class PelegRatio(_Called):
     """Peleg's hyperbola: a is the inverse of the first rate, 1/b the largest change.
@@ -268,6 +274,7 @@ class PelegRatio(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, Silva",
     equation=r"MR = e^{-a t - b\sqrt t}",
+    symbols={"rate_constant": "a"},
 )
 class Silva(_Called):
     """First order with a square-root start, as short-time diffusion has.
@@ -389,6 +396,7 @@ class Geometric(_Called):
     fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, Aghbashlo",
     equation=r"MR = e^{-k_1 t/(1+k_2 t)}",
+    symbols={"rate_constant": "k_1", "rate_constant_second": "k_2"},
 )
 class Aghbashlo(_Called):
     """First order with a rate that changes in time.

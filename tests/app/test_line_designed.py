@@ -1,0 +1,132 @@
+"""What a line that is built on the page is asked for: figures of its streams, prices, names, further solids."""
+
+from __future__ import annotations
+
+import pytest
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+from tests.app.browsing import Page
+from tests.app.test_builder import case_of, pick, press, solved
+
+WORDS = {
+    "en": {
+        "new": "New line",
+        "create": "Create the line",
+        "search": "Search equipment",
+        "heater": "heater or cooler",
+        "feed": "suspension",
+        "unit": "heater",
+        "spec": "Add the specification",
+        "rename": "Rename",
+        "solid": "Calcite",
+        "share": "10 %",
+        "price": "0.05 USD/kWh",
+        "folded": "carries nothing",
+    },
+    "fr": {
+        "new": "Nouvelle ligne",
+        "create": "Créer la ligne",
+        "search": "Chercher un appareil",
+        "heater": "réchauffeur",
+        "feed": "suspension",
+        "unit": "réchauffeur",
+        "spec": "Ajouter la spécification",
+        "rename": "Renommer",
+        "solid": "Calcite",
+        "share": "10 %",
+        "price": "0,05 USD/kWh",
+        "folded": "vide",
+    },
+}
+
+
+def begun(page: Page, language: str) -> dict[str, str]:
+    """A suspension that is heated."""
+    w = WORDS[language]
+    page.open("lines", language)
+    page.button(w["new"]).click()
+    page.type("#new-title", "Boue")
+    page.one("input[value=suspension]").click()
+    page.button(w["create"]).click()
+    pick(page, w["heater"], w["search"])
+    solved(page)
+    return w
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_the_water_is_found_for_the_solids_of_a_stream(page: Page, language: str) -> None:
+    w = begun(page, language)
+    (feed,), (unit,) = case_of(page)["feeds"], case_of(page)["units"]
+    page.browser.execute_script("document.querySelector('[data-specifications]').open = true")
+    Select(page.one("#spec-vary")).select_by_value(f"{feed}.liquid_flow")
+    Select(page.one("#spec-of")).select_by_value(f"{unit}.product")
+    Select(page.one("#spec-figure")).select_by_value("solids_mass_fraction")
+    for name, value in (("equals", w["share"]), ("lower", "100 kg/h"), ("upper", "5 t/h")):
+        page.leave(page.type(f"#spec-{name}", value))
+    page.button(w["spec"]).click()
+    page.one("[data-specification]")
+    solved(page)
+    assert "1800 kg/h" in page.one(".findings").text  # 200 kg/h of solid are a tenth of 2000 kg/h
+    page.check()
+
+
+def test_a_stream_is_renamed_and_its_specification_follows(page: Page) -> None:
+    w = begun(page, "fr")
+    (unit,) = case_of(page)["units"]
+    press(page, f".diagram [data-stream='{unit}.product']")
+    page.one(f"[data-panel='{unit}.product']")
+    page.type("#rename", "Boue chaude")
+    page.button(w["rename"]).click()
+    page.one("[data-panel='boue_chaude']")
+    assert case_of(page)["streams"] == {"boue_chaude": [f"{unit}.product"]}
+    solved(page)
+    assert "boue chaude" in page.one("[data-streams]").text
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_prices_are_typed_and_the_costs_stand_in_the_table(page: Page, language: str) -> None:
+    w = begun(page, language)
+    (unit,) = case_of(page)["units"]
+    field = page.type(f"[data-panel='{unit}'] input[id$='-temperature']", "80")
+    page.leave(field)
+    solved(page)
+    page.browser.execute_script("document.querySelector('[data-utilities]').open = true")
+    field = page.type("#price-low_pressure_steam", w["price"])
+    page.leave(field)
+    page.until(lambda: case_of(page).get("prices") == {"low_pressure_steam": "0.05 USD/kWh"})
+    solved(page)
+    page.browser.execute_script("document.querySelector('[data-utilities]').open = true")
+    table = page.one("[data-utilities]").text
+    assert "USD/h" in table
+    assert "USD/t" in table
+    page.check()
+
+
+def test_a_second_solid_is_given_a_share_in_a_feed_that_has_none_of_it(page: Page) -> None:
+    w = begun(page, "fr")
+    page.browser.execute_script("document.querySelector('[data-substances]').open = true")
+    page.type("#add-solids", w["solid"]).send_keys(Keys.TAB)
+    page.until(lambda: len(case_of(page)["mixture"]["solids"]) == 2)
+    (feed,) = case_of(page)["feeds"]
+    assert case_of(page)["feeds"][feed]["solid"] == {"quartz": "100 %"}
+    solved(page)
+    share = page.type("[data-form] input[id*='solid.']", "25 %")
+    page.leave(share)
+    page.until(lambda: case_of(page)["feeds"][feed]["solid"]["quartz"] == "75 %")
+    solved(page)
+    page.check()
+
+
+@pytest.mark.parametrize("width", [390, 1100, 1440])
+def test_the_table_of_streams_scrolls_by_itself_and_folds_what_is_empty(page: Page, width: int) -> None:
+    page.open("lines/examples%3Apotassium-nitrate%2Fline.toml", "fr" if width == 1100 else "en", width=width)
+    page.one("[data-streams]")
+    page.settle()
+    wide = page.browser.execute_script(
+        "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+    )
+    assert wide[0] <= wide[1]
+    rows = len(page.all("[data-streams] tbody tr"))
+    page.browser.execute_script("document.querySelector('[data-empty]').click()")
+    page.until(lambda: len(page.all("[data-streams] tbody tr")) == rows + 2)  # vapor and skimmings
+    page.check()
