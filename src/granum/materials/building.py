@@ -167,6 +167,7 @@ def solid_of(key: str, entry: SolidEntry) -> Solid:
         molar_mass=mass,
         sphericity=_or_nan(entry.sphericity),
         mohs_hardness=_or_nan(entry.mohs_hardness),
+        dust=entry.dust,
         **made,
     )
 

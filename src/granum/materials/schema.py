@@ -95,6 +95,8 @@ class SolidEntry(_Named):
     molar_mass: float | None = Field(default=None, gt=0, lt=10)
     sphericity: float | None = Field(default=None, gt=0, le=1)
     mohs_hardness: float | None = Field(default=None, ge=0, le=10)
+    dust: str = ""
+    """Which tested dust it burns like, of the table of dusts."""
     density: PropertyEntry | None = None
     heat_capacity: PropertyEntry | None = None
     conductivity: PropertyEntry | None = None

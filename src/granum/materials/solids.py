@@ -23,6 +23,7 @@ class Solid(eqx.Module):
     molar_mass: kg/mol; NaN for rocks, foods and polymers.
     sphericity: ordinary value for its crushed or crystallized particles; NaN when not given.
     mohs_hardness: on Mohs' scale; NaN when not given.
+    dust: the tested dust that its own burns like, by name; empty for what does not burn or is not known.
     """
 
     name: str = eqx.field(static=True)
@@ -34,6 +35,7 @@ class Solid(eqx.Module):
     density: Property
     heat_capacity: Property
     conductivity: Property
+    dust: str = eqx.field(static=True, default="")
 
     @property
     def label(self) -> str:

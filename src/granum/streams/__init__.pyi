@@ -12,6 +12,9 @@ from granum.streams.cakes import (
 from granum.streams.dissolution import (
     SaturatingWash as SaturatingWash,
 )
+from granum.streams.dusts import (
+    DustData as DustData,
+)
 from granum.streams.equilibrium import (
     HumidMixture as HumidMixture,
 )

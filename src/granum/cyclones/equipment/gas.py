@@ -30,6 +30,7 @@ from granum.cyclones.formulas.erosion import wear_velocity_cyclone_inlet
 from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_velocity_kalen_zenz
 from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.numerics.smooth import safe_divide
+from granum.streams.atmosphere import EXPLOSIBLE, explosible
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import FANNED, fanned
@@ -99,7 +100,7 @@ class GasCyclone(Unit):
         "velocity": Limit("inlet velocity", 10.0, 27.0, "m/s", "hoffmann2008"),
         "saltation": Limit("inlet velocity over saltation velocity", 0.8, 1.36, "dimensionless", "kalen1974"),
         "wear": Limit("wear of the wall in a year of operation", 0.0, ALLOWANCE, "mm", OWN_LIMIT),
-    }
+    } | EXPLOSIBLE
 
     utilities: ClassVar[Utilities] = FANNED
 
@@ -167,7 +168,7 @@ class GasCyclone(Unit):
     def measured(
         self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {
+        return explosible(feed) | {
             "velocity": inside.velocity,
             "saltation": inside.velocity / inside.saltation,
             "wear": 1e3 * YEAR * inside.wear,

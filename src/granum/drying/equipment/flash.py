@@ -19,11 +19,13 @@ from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
 from granum.streams.equilibrium import HumidMixture
+from granum.streams.fines import fall, lifted
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
 TABLE = NOTES.format(table="IV.14")
 FRICTION = 0.02  # Darcy factor of the gas in the duct
+LEVEL = 0.5  # of ``downward``, from where on nothing has to be lifted
 FIRST_CELLS = 1.08  # growth of the cells from the feed point on, where the particles are still slow
 
 
@@ -33,7 +35,9 @@ class FlashDryer(Dryer):
     heat after Ranz and Marshall.
 
     Dilute: particles do not touch. The size does not change with moisture. ``downward`` is 1 for a falling
-    duct, 0.5 for a level one.
+    duct, 0.5 for a level one. With ``entrainment`` the exhaust carries the powder to the collectors of the
+    line: all of it from a falling or level duct, from a rising one what falls slower than the gas flows; else
+    a perfect collector ends the duct.
     """
 
     length: Length
@@ -44,6 +48,7 @@ class FlashDryer(Dryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 60
+    entrainment: bool = False
 
     limits: ClassVar[Limits] = Dryer.limits | {
         "velocity": Limit("gas velocity at the inlet", 15.0, 30.0, "m/s", TABLE),
@@ -73,6 +78,12 @@ class FlashDryer(Dryer):
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         return _flown(self, feed, gas)
+
+    def entrained(self, product: Stream, exhaust: Stream) -> Any:
+        if not self.entrainment:
+            return None
+        flies = lifted(fall(product, exhaust), exhaust, self.extent()) | (jnp.asarray(self.downward) >= LEVEL)
+        return jnp.where(flies, 1.0, 0.0)
 
     @classmethod
     def size(

@@ -30,10 +30,12 @@ from granum.drying.gas_solid.layer import LayerDryer, joined
 from granum.drying.gas_solid.liquor import counted
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
+from granum.streams.fines import finest
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Limits
 
 TABLE = NOTES.format(table="IV.12")
+COLUMN_DUST = 1.1e-4  # of the grain
 
 
 class DriedGrain(NamedTuple):
@@ -47,14 +49,16 @@ class DriedGrain(NamedTuple):
     heat_duty: Any
 
 
-@equipment("silo_dryer", source="brooker1992; thompson1968", title="Silo dryer for grain")
+@equipment("silo_dryer", source="brooker1992; thompson1968; ap42_1995", title="Silo dryer for grain")
 class SiloDryer(LayerDryer):
     """Cross-flow column: grain falls in a layer through a drying zone and a cooling zone of the same
     thickness; air crosses it.
 
     Deep bed of thin layers. ``turned`` lets the air of the second half of the drying zone enter from the
     other side. Without air at the port ``cooling`` there is no cooling zone; its air leaves as ``warmed_air``
-    and may feed the heater in the flowsheet.
+    and may feed the heater in the flowsheet. With ``entrainment`` the exhaust takes along the
+    ``dusting_fraction`` of the grain, the finest of it: 0.11 kg a tonne of column dryers, 1.5 of rack dryers
+    (AP-42, table 9.9.1-1, recalled).
     """
 
     volume: Volume
@@ -68,6 +72,8 @@ class SiloDryer(LayerDryer):
     temperature_limit: Temperature | None = None
     layers: Annotated[int, Within(1, 1000)] = 20
     steps: Annotated[int, Within(1, 100_000)] = 50
+    entrainment: bool = False
+    dusting_fraction: Fraction = COLUMN_DUST
 
     limits: ClassVar[Limits] = LayerDryer.limits | {
         "inlet": Limit("gas temperature at the inlet", 303.15, 383.15, "K", "brooker1992"),
@@ -111,6 +117,9 @@ class SiloDryer(LayerDryer):
         hot = [zone(gases[0], share / halves, 1.0 / halves, i == 1) for i in range(halves)]
         return hot + ([zone(gases[1], self.cooling_share, 1.0, False)] if cooled else [])
 
+    def entrained(self, product: Stream, exhaust: Stream) -> Any:
+        return finest(product, self.dusting_fraction) if self.entrainment else None
+
     def through(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> Through:
         return _grain(self, feed, gas, cooling)
 
@@ -119,13 +128,12 @@ class SiloDryer(LayerDryer):
     ) -> DriedGrain:
         found = inside.profile
         if cooling is None:
-            product, exhaust, duty = dried(feed, gas, found)
+            product, exhaust, duty = self.dusted(dried(feed, gas, found))
             return DriedGrain(product, exhaust, empty(feed.mixture, gas.temperature, gas.pressure), duty)
         assert inside.cooling is not None
         vapor, heat = inside.cooling
-        product, exhaust, duty = dried(
-            feed, gas, found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat)
-        )
+        apart = found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat)
+        product, exhaust, duty = self.dusted(dried(feed, gas, apart))
         stray = cooling.part(solid=1.0, liquid=1.0)
         air = cooling.replace(gas=cooling.gas.at[HumidMixture(feed.mixture).vapor].set(vapor))
         return DriedGrain(product, exhaust, warmed(air, heat + stray.enthalpy_flow), duty)

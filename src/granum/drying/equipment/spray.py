@@ -32,8 +32,9 @@ from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Thr
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
-from granum.particles.formulas.terminal import terminal_velocity
+from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
+from granum.streams.fines import fall, held
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import driven
@@ -51,6 +52,8 @@ class SprayDryer(Dryer):
     suspended, is shared out over them. ``gas_dispersion`` mixes the gas along the chamber: exchange flow
     between cells over through-flow, up to some tens; plug flow without it. With ``entrainment`` the exhaust
     takes fines along, by their terminal velocity against the gas in the section; else all powder falls out.
+    Fines that come back at the port ``fines`` all stick to drops at the atomizer, in proportion to these: the
+    agglomerates are larger and start less wet.
     """
 
     length: Length
@@ -78,7 +81,12 @@ class SprayDryer(Dryer):
     utilities: ClassVar[Utilities] = Dryer.utilities | {"electric_power_atomizer": Utility("masters1991")}
 
     def extent(self) -> Any:
-        return 0.25 * pi * self.diameter**2 * self.length
+        return self.section * self.length
+
+    @property
+    def section(self) -> Any:
+        """Of the chamber."""
+        return 0.25 * pi * self.diameter**2
 
     def liquor(self, feed: Stream, gas: Stream) -> Liquor:
         """The feed as the atomizer meets it."""
@@ -91,26 +99,30 @@ class SprayDryer(Dryer):
             gas.gas_density,
         )
 
-    def shares(self, feed: Stream, gas: Stream) -> Any:
-        """Solid in each class of dry particles, from the volume distribution of the drops."""
+    def shares(self, feed: Stream, gas: Stream, growth: Any = 1.0) -> Any:
+        """Solid in each class of dry particles, from the volume distribution of the drops, each particle
+        larger by a ratio than its drop makes it.
+        """
         mean = self.atomizer.sauter(self.liquor(feed, gas))
         modulus = mean * jnp.exp(gammaln(1.0 - 1.0 / self.drop_exponent))
         wet = drop_ratio(self.dry_density, feed.solid_density, liquid_density(feed), feed.moisture_dry_basis)
-        edges = jnp.asarray(feed.mixture.size_edges) * wet
+        edges = jnp.asarray(feed.mixture.size_edges) * wet / growth
         below = -jnp.expm1(-((edges / modulus) ** self.drop_exponent))
         return jnp.diff(below.at[0].set(0.0).at[-1].set(1.0))
 
-    def atomized(self, feed: Stream, gas: Stream) -> Stream:
-        """The feed with its solid in the classes of the dry particles."""
-        shares = self.shares(feed, gas)
-        return feed.regraded(jnp.broadcast_to(shares[:, None], (shares.shape[0], shares.shape[0])))
+    def atomized(self, feed: Stream, gas: Stream, fines: Stream | None) -> Stream:
+        """Feed and fines as dry matter and water, the solid in the classes of the dry particles."""
+        dry, whole = counted(feed), counted(charge(feed, fines))
+        growth = jnp.cbrt(safe_divide(whole.solid_flow, dry.solid_flow, 1.0))
+        shares = self.shares(dry, gas, growth)
+        return whole.regraded(jnp.broadcast_to(shares[:, None], (shares.shape[0], shares.shape[0])))
 
     def path(self, feed: Stream, gas: Stream) -> Path:
         """The chamber, with short cells where the drops are fast."""
         growth = GROWTH ** jnp.arange(self.cells)
         return Path(
             self.length * growth / jnp.sum(growth),
-            0.25 * pi * self.diameter**2,
+            self.section,
             STANDARD_GRAVITY,
             self.atomizer.launch(self.liquor(feed, gas)),
             jnp.asarray(feed.mixture.sizes),
@@ -120,11 +132,12 @@ class SprayDryer(Dryer):
             True,
         )
 
-    def through(self, feed: Stream, gas: Stream) -> Through:
-        return _sprayed(self, feed, gas)
+    def through(self, feed: Stream, gas: Stream, fines: Stream | None = None) -> Through:
+        return _sprayed(self, feed, gas, fines)
 
-    def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
-        return self.dusted(parted(self.atomized(counted(feed), gas), composition(feed), gas, inside.profile))
+    def outlets(self, inside: Through, feed: Stream, gas: Stream, fines: Stream | None = None) -> Dried:
+        drops, dissolved = self.atomized(feed, gas, fines), composition(charge(feed, fines))
+        return self.dusted(parted(drops, dissolved, gas, inside.profile))
 
     def entrained(self, product: Stream, exhaust: Stream) -> Any:
         """What the gas in the section of the chamber holds against its fall, kept evenly mixed by
@@ -132,13 +145,7 @@ class SprayDryer(Dryer):
         """
         if not self.entrainment:
             return None
-        sizes = jnp.asarray(product.mixture.sizes)
-        fall = jnp.maximum(
-            terminal_velocity(sizes, self.dry_density, exhaust.gas_density, exhaust.gas_viscosity), 0.0
-        )
-        section = 0.25 * pi * self.diameter**2
-        share = jnp.exp(-fall * section / jnp.maximum(exhaust.gas_volume_flow, 1e-12))
-        return jnp.broadcast_to(share, (len(product.mixture.solids), sizes.shape[0]))
+        return held(fall(product, exhaust, self.dry_density), exhaust, self.section)
 
     @classmethod
     def size(
@@ -156,10 +163,21 @@ class SprayDryer(Dryer):
             cls(5.0, diameter, atomizer, kinetics, **more), "length", moisture_outlet, 0.05, 200.0, feed, gas
         )
 
+    def figures(
+        self, inside: Through, outlets: Dried, feed: Stream, gas: Stream, fines: Stream | None = None
+    ) -> DryerFigures:
+        return super().figures(inside, outlets, charge(feed, fines), gas)
+
     def measured(
-        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+        self,
+        inside: Through,
+        outlets: Dried,
+        figures: DryerFigures,
+        feed: Stream,
+        gas: Stream,
+        fines: Stream | None = None,
     ) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed, gas) | {
+        return super().measured(inside, outlets, figures, charge(feed, fines), gas) | {
             "inlet": gas.temperature,
             "outlet": outlets.exhaust.temperature,
             "time": self.extent() / outlets.exhaust.gas_volume_flow,
@@ -168,22 +186,33 @@ class SprayDryer(Dryer):
         }
 
     def drawn(
-        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+        self,
+        inside: Through,
+        outlets: Dried,
+        figures: DryerFigures,
+        feed: Stream,
+        gas: Stream,
+        fines: Stream | None = None,
     ) -> dict[str, Any]:
         return super().drawn(inside, outlets, figures, feed, gas) | {
             "electric_power_atomizer": driven(self.atomizer.shaft_power(self.liquor(feed, gas)))
         }
 
 
+def charge(feed: Stream, fines: Stream | None) -> Stream:
+    """What is dried: the feed with the fines that stick to its drops."""
+    return feed if fines is None else feed + fines
+
+
 @ready
-def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> Through:
-    dry = counted(feed)
-    drops = dryer.atomized(dry, gas)
+def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream, fines: Stream | None) -> Through:
+    whole = charge(feed, fines)
+    dry, drops = counted(whole), dryer.atomized(feed, gas, fines)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
-    matter = replace(Matter.of(drops, gas), dissolved=composition(feed))
+    matter = replace(Matter.of(drops, gas), dissolved=composition(whole))
     inlet = Inlet(
         X,
-        jnp.full_like(X, 1.0) * feed.temperature,
+        jnp.full_like(X, 1.0) * whole.temperature,
         HumidMixture(gas.mixture).humidity_ratio(gas),
         gas.temperature,
     )
@@ -192,7 +221,7 @@ def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> Through:
         network = network.dispersed(dryer.gas_dispersion)
     return Through(
         *convey(
-            dryer.path(dry, gas),
+            dryer.path(counted(feed), gas),
             matter,
             dryer.kinetics,
             gas,

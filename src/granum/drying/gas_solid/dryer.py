@@ -35,8 +35,9 @@ from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting
 from granum.drying.gas_solid.liquor import composition, counted, moistened
 from granum.drying.gas_solid.matter import Matter, temperature_at
 from granum.numerics import safe_divide
-from granum.streams.atmosphere import FLAMMABLE, flammable
+from granum.streams.atmosphere import EXPLOSIBLE, FLAMMABLE, explosible, flammable
 from granum.streams.equilibrium import HumidMixture
+from granum.streams.fines import taken
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import DUCT, HOT_GAS, ducted, warmth
@@ -135,7 +136,7 @@ class Dryer(Unit):
             "keey1978",
         ),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "keey1978"),
-    } | FLAMMABLE
+    } | (FLAMMABLE | EXPLOSIBLE)
 
     utilities: ClassVar[Utilities] = HOT_GAS | {"electric_power_fan": Utility(DUCT)}
 
@@ -175,13 +176,7 @@ class Dryer(Unit):
         share = self.entrained(made.product, made.exhaust)
         if share is None:
             return made
-        product = made.product
-        share = share.reshape(share.shape + (1,) * len(product.mixture.axes))
-        dust = product.part(
-            solid=share, liquid=safe_divide(jnp.sum(product.solid * share), product.solid_flow)
-        )
-        rest = product.replace(solid=product.solid - dust.solid, liquid=product.liquid - dust.liquid)
-        return Dried(rest, made.exhaust + dust, made.heat_duty)
+        return Dried(*taken(made.product, made.exhaust, share), made.heat_duty)
 
     def figures(
         self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any
@@ -192,7 +187,7 @@ class Dryer(Unit):
         evaporated = feed.liquid[0] - outlets.product.liquid[0] - (exhaust.liquid[0] - gas.liquid[0])
         return DryerFigures(
             evaporation_rate=evaporated,
-            moisture_dry_basis=outlets.product.moisture_dry_basis,
+            moisture_dry_basis=dried_moisture(outlets, gas),
             moisture_dry_basis_highest=found.wettest,
             temperature_product=outlets.product.temperature,
             temperature_product_highest=jnp.max(jnp.where(some, found.temperature, 0.0)),
@@ -209,8 +204,8 @@ class Dryer(Unit):
     ) -> dict[str, Any]:
         found = {
             "humid": figures.relative_humidity,
-            "over": outlets.product.moisture_dry_basis - equilibrium(self.kinetics, feed, gas),
-        } | flammable(outlets.exhaust)
+            "over": figures.moisture_dry_basis - equilibrium(self.kinetics, feed, gas),
+        } | (flammable(outlets.exhaust) | explosible(outlets.exhaust))
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product_highest - self.temperature_limit
         return found
@@ -297,6 +292,13 @@ def dried(feed: Stream, gas: Stream, found: Profile) -> Dried:
     exhaust.
     """
     return parted(counted(feed), composition(feed), gas, found)
+
+
+def dried_moisture(outlets: Any, gas: Stream) -> Any:
+    """Moisture of what was dried, also where all of it flies."""
+    product, exhaust = outlets.product, outlets.exhaust
+    flown = safe_divide(exhaust.liquid_flow - gas.liquid_flow, exhaust.solid_flow - gas.solid_flow)
+    return jnp.where(product.solid_flow > 0.0, product.moisture_dry_basis, flown)
 
 
 def parted(feed: Stream, dissolved: Any, gas: Stream, found: Profile) -> Dried:

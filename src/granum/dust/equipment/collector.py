@@ -14,16 +14,14 @@ from granum.core.limits import Limit
 from granum.dust.formulas.emission import emission_concentration
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.slip import knudsen_number, mean_free_path, slip_factor_allen_raabe
+from granum.streams.atmosphere import EXPLOSIBLE, explosible
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 LEAST = 1e-9
 EMISSION = 20e-6  # kg/m³, dry at 0 °C and 1 atm
 SOURCE = "taluft2021, no. 5.2.1"
-IGNITION: Limits = {  # of dust that burns, where its data are given
-    "explosible": Limit(
-        "dust in the gas over its lower explosion limit", 0.0, 0.25, "dimensionless", "nfpa69_2019, § 8.3"
-    ),
+IGNITION: Limits = EXPLOSIBLE | {  # of dust that burns
     "layer": Limit(
         "ignition temperature of a layer of dust above that of the gas",
         75.0,
@@ -117,8 +115,10 @@ class Collector(Unit):
     def ignition(
         self, feed: Stream, explosible_concentration: Any, layer_ignition_temperature: Any
     ) -> dict[str, Any]:
-        """What is measured of dust that burns, as far as its data are given."""
-        found: dict[str, Any] = {}
+        """What is measured of dust that burns, as far as its data are known: of the sample where they are
+        given, else of the library.
+        """
+        found = explosible(feed)
         if explosible_concentration is not None:
             dust = safe_divide(feed.solid_flow, feed.gas_volume_flow)
             found["explosible"] = dust / jnp.maximum(explosible_concentration, 1e-15)

@@ -1,0 +1,44 @@
+"""How dusts explode: values of tested samples."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from granum.core.datasets import dataset
+from granum.core.errors import unknown_name
+from granum.core.i18n import _
+
+COARSEST = 5e-4  # m, above which particles do not count as dust that burns
+
+
+class DustData(NamedTuple):
+    """A tested dust, SI; not a number where the table has none."""
+
+    name: str
+    median_size: float
+    explosible_concentration: float
+    explosion_pressure: float
+    deflagration_index: float
+
+
+def dusts() -> dict[str, DustData]:
+    """Every dust of the table by name."""
+    return {
+        row["name"]: DustData(
+            row["name"],
+            row["median size"],
+            row["explosible concentration"],
+            row["explosion pressure"],
+            row["deflagration index"],
+        )
+        for row in dataset("streams", "dusts_nfpa68")
+    }
+
+
+def dust(name: str) -> DustData:
+    """A dust by its name."""
+    known = dusts()
+    found = known.get(name.strip().lower())
+    if found is None:
+        raise unknown_name(_("Dust"), name, known)
+    return found
