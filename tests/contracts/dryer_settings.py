@@ -21,6 +21,7 @@ from granum.drying.equipment.fluid_bed import FluidBedDryer
 from granum.drying.equipment.freeze import FreezeDryer
 from granum.drying.equipment.freeze_trays import TrayFreezeDryer
 from granum.drying.equipment.paddle import PaddleDryer
+from granum.drying.equipment.paper import PaperMachine
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.silo import SiloDryer
 from granum.drying.equipment.spray import SprayDryer
@@ -297,6 +298,19 @@ def _trays(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
     )
 
 
+def _paper(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
+    grammage = between(a, 0.01, 0.4)
+    return PaperMachine(
+        width=d.feed.solid_flow / grammage / between(b, 0.5, 30.0),
+        dry_mass_per_area=grammage,
+        pressure_steam=1.2e5 + 8e5 * c,
+        cylinder_count=6,
+        temperature_air=323.0 + 60.0 * e,
+        felt_factor=f,
+        heat_transfer_coefficient_air=10.0 + 90.0 * g,
+    )
+
+
 BY_BALANCE: dict[str, Callable[..., Setting]] = {
     "moisture": _by_balance(
         lambda d, a, b, c, e, f, g: ConvectiveDryer(
@@ -377,6 +391,7 @@ BY_BALANCE: dict[str, Callable[..., Setting]] = {
     ),
     "freeze": _by_balance(_freeze, POWDER),
     "freeze on trays": _by_balance(_trays, GRAIN),
+    "paper": _by_balance(_paper, POWDER, fresh=True),
 }
 
 

@@ -17,6 +17,7 @@ LINES = (
     "spray-drying",
     "conveying",
     "freeze-dried-food",
+    "paper-machine",
 )
 
 

@@ -291,6 +291,8 @@ AS_ALONE = (  # with the values with which they open by themselves
     "dust.electrostatic_precipitator",
     "dust.settling_chamber",
     "dust.venturi_scrubber",
+    "drying.paper_machine",
+    "drying.tray_freeze_dryer",
     "settling.flocculator",
     "streams.fan",
     "streams.pump",
@@ -350,6 +352,7 @@ SPECIAL = {
     "fluidization.fluidized_bed": {"feed": "dusty air"},
     "drying.spray_dryer": {"feed": "slurry", "gas": "air"},
     "drying.freeze_dryer": {"feed": "slurry"},
+    "drying.tray_freeze_dryer": {"feed": "slurry"},
     "drying.drum_dryer": {"feed": "slurry"},
 }
 

@@ -104,6 +104,12 @@ from granum.drying.equipment.paddle import (
     PaddleDryer as PaddleDryer,
     PaddleFigures as PaddleFigures,
 )
+from granum.drying.equipment.paper import (
+    CylinderPassage as CylinderPassage,
+    PaperDried as PaperDried,
+    PaperFigures as PaperFigures,
+    PaperMachine as PaperMachine,
+)
 from granum.drying.equipment.rotary import (
     RotaryDryer as RotaryDryer,
 )
@@ -221,6 +227,10 @@ from granum.drying.formulas.moisture_ratios import (
     drying_time_thin_layer as drying_time_thin_layer,
     moisture_ratio_thin_layer as moisture_ratio_thin_layer,
 )
+from granum.drying.formulas.paper import (
+    evaporation_per_area_tappi as evaporation_per_area_tappi,
+    heat_transfer_coefficient_paper as heat_transfer_coefficient_paper,
+)
 from granum.drying.formulas.rotary import (
     residence_time_friedman_marshall as residence_time_friedman_marshall,
     residence_time_saeman_mitchell as residence_time_saeman_mitchell,
@@ -331,6 +341,9 @@ from granum.drying.isotherms.grains import (
     HendersonModified as HendersonModified,
     OswinModified as OswinModified,
 )
+from granum.drying.isotherms.paper import (
+    Heikkila as Heikkila,
+)
 from granum.drying.lab_tests.curve import (
     DryingCurve as DryingCurve,
     RateCurve as RateCurve,
@@ -395,4 +408,9 @@ from granum.drying.thin_layers.other import (
 )
 from granum.drying.vial_spread import (
     VialSpread as VialSpread,
+)
+from granum.drying.web_path import (
+    Air as Air,
+    Phase as Phase,
+    Web as Web,
 )
