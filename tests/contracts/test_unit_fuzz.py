@@ -36,6 +36,7 @@ QUICK = (
     "train",
     "ultrafiltration",
     "osmosis",
+    "flotation",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)
