@@ -1,4 +1,4 @@
-"""Membrane plants with ordinary solutions and settings, to be tried by the contracts."""
+"""Membrane plants and flotation with ordinary waters and settings, to be tried by the contracts."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from tests.contracts.unit_search import Case, shares
 
 from granum.filtration.equipment.membranes import ReverseOsmosis, Ultrafiltration
+from granum.settling.equipment.flotation import DissolvedAirFlotation
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
@@ -33,13 +34,34 @@ def _brine(mixture: Mixture, x: Any) -> dict[str, Stream]:
     }
 
 
+def _flocs(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """1 to 100 kg/s of water with 10 mg/L to 5 g/L of flocs heavier than it and of oil, at 5 to 35 °C."""
+    water, classes = 10.0 ** (2.0 * x[0]), len(mixture.sizes)
+    solid = water * 10.0 ** (-5.0 + 2.7 * x[1])
+    both = jnp.stack([(1.0 - x[2]) * shares(x[4], x[5], classes), x[2] * shares(x[5], x[4], classes)])
+    return {"feed": empty(mixture, 278.0 + 30.0 * x[3]).replace(solid=solid * both, liquid=water[None])}
+
+
 def membranes(classes: int) -> dict[str, Case]:
     """One case of each, its area in proportion to its feed."""
     whey = mixture_of(["water", "sucrose"], ["whey protein"], [], np.geomspace(2e-9, 2e-8, classes + 1))
     brine = mixture_of(
         ["water", "sodium chloride"], ["sodium chloride"], [], np.geomspace(1e-5, 1e-3, classes + 1)
     )
+    flocs = mixture_of(["water"], ["kaolinite", "crude oil"], [], np.geomspace(1e-6, 1e-4, classes + 1))
     return {
+        "flotation": Case(
+            flocs,
+            _flocs,
+            lambda f, u: DissolvedAirFlotation(
+                f["feed"].slurry_volume_flow * (300.0 + 1200.0 * u[0]),
+                30.0 + 200.0 * u[1],
+                recycle_ratio=0.03 + u[2],
+                pressure_saturator=2.5e5 + 5e5 * u[3],
+                attachment_efficiency=u[4],
+                floc_water_ratio=30.0 * u[5],
+            ),
+        ),
         "ultrafiltration": Case(
             whey,
             _whey,

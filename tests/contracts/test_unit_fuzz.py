@@ -39,6 +39,7 @@ QUICK = (
     "ultrafiltration",
     "osmosis",
     "layers",
+    "flotation",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

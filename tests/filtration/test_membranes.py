@@ -7,7 +7,7 @@ import pytest
 
 import granum as gr
 from granum.core.errors import ConvergenceError
-from granum.filtration.formulas.blocking import LAWS
+from granum.filtration.formulas.blocking import LAWS, BlockingLaw
 from granum.filtration.membranes import Osmosis
 from granum.streams.from_materials import mixture_of
 
@@ -38,7 +38,7 @@ def test_sizes_of_molecules() -> None:
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_blocking_follows_hermia(law: str) -> None:
+def test_blocking_follows_hermia(law: BlockingLaw) -> None:
     """d²t/dV² = k (dt/dV)ⁿ, by differences of the volumes."""
     t = np.linspace(1.0, 1800.0, 20001)
     V = np.asarray(gr.filtration.filtrate_volume_blocking(t, 2e-7, 500.0, law))

@@ -39,6 +39,12 @@ from granum.settling.equipment.flocculator import (
     Flocculator as Flocculator,
     FlocculatorFigures as FlocculatorFigures,
 )
+from granum.settling.equipment.flotation import (
+    DissolvedAirFlotation as DissolvedAirFlotation,
+    Floated as Floated,
+    FlotationFigures as FlotationFigures,
+    Whitened as Whitened,
+)
 from granum.settling.equipment.gravity import (
     AbstractSettler as AbstractSettler,
     Figures as Figures,
@@ -81,6 +87,13 @@ from granum.settling.formulas.flocculation import (
     power_stirring as power_stirring,
     settling_growth_fractal as settling_growth_fractal,
     velocity_gradient_stirred as velocity_gradient_stirred,
+)
+from granum.settling.formulas.flotation import (
+    air_released as air_released,
+    air_solubility as air_solubility,
+    air_to_solids_ratio as air_to_solids_ratio,
+    collector_efficiency_bubble as collector_efficiency_bubble,
+    removal_efficiency_contact as removal_efficiency_contact,
 )
 from granum.settling.formulas.lamella import (
     critical_velocity_cocurrent as critical_velocity_cocurrent,

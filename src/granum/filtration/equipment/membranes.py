@@ -295,7 +295,6 @@ class ReverseOsmosis(_Plant):
         "flux": Limit("flux of the membrane", 1.4e-6, 1.4e-5, "m/s", "filmtec2023"),
         "pressure": Limit("pressure across the membrane", 5e5, 8.3e6, "Pa", "filmtec2023"),
         "polarization": Limit("polarization modulus", 1.0, 1.2, "dimensionless", "filmtec2023"),
-        "solids": Limit("solids before the membrane", 0.0, 1e-6, "dimensionless", "filmtec2023", quiet=True),
     }
 
     def membrane(self, feed: Stream) -> Membrane:
@@ -345,7 +344,6 @@ class ReverseOsmosis(_Plant):
             "flux": figures.filtrate_flux,
             "pressure": jnp.asarray(self.pressure_drop),
             "polarization": figures.polarization_modulus,
-            "solids": feed.solids_mass_fraction,
         }
 
     def drawn(
