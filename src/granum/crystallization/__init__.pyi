@@ -12,6 +12,7 @@ from granum.crystallization.charts_melt import (
 )
 from granum.crystallization.charts_solutions import (
     antisolvent_chart as antisolvent_chart,
+    polymorph_chart as polymorph_chart,
 )
 from granum.crystallization.equipment.antisolvent import (
     AntisolventCrystallizer as AntisolventCrystallizer,
@@ -314,6 +315,11 @@ from granum.crystallization.vessels.msmpr import (
     Feed as Feed,
     Removal as Removal,
     SteadyState as SteadyState,
+)
+from granum.crystallization.vessels.polymorphs import (
+    Form as Form,
+    PolymorphCourse as PolymorphCourse,
+    polymorph_batch as polymorph_batch,
 )
 from granum.crystallization.vessels.precipitation import (
     Ions as Ions,

@@ -1,4 +1,4 @@
-"""Charts of solutions: what an antisolvent takes from one, solubility curves of several solutes."""
+"""Charts of solutions: what an antisolvent takes from one, two crystal forms in one."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 
 from granum.core import chart
-from granum.core.charts import ACCENT, LIQUID, SOLID, add_line, axis_title, figure
+from granum.core.charts import ACCENT, LIQUID, OUT, SOLID, add_line, axis_title, figure
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import MassRatio, Temperature
-from granum.crystallization.kinds import OpenShare, Solubility
+from granum.core.kinds import Density, Length, MassRatio, Ratio, Temperature, Time
+from granum.crystallization.formulas.nucleation import NoNucleation
+from granum.crystallization.kinds import Growth, Nucleation, OpenShare, Program, Solubility
+from granum.crystallization.vessels.polymorphs import Dissolution, polymorph_batch
 
 
 @chart(
@@ -69,6 +71,96 @@ def antisolvent_chart(
             "title": axis_title("yield_fraction", "percent"),
             "showgrid": False,
             "range": [0, 100],
+        },
+        margin={"r": 70, "t": 80},
+        legend={"orientation": "h", "y": 1.08},
+    )
+    return drawing
+
+
+@chart(
+    source="cardew1985; ono2004",
+    title="Two polymorphs over time",
+    typical={"duration": (3600.0, 36000.0)},
+)
+def polymorph_chart(
+    solute_per_solvent: MassRatio,
+    solubility: Solubility,
+    solubility_law_stable: Solubility,
+    growth: Growth,
+    growth_stable: Growth,
+    dissolution: Dissolution,
+    temperature_program: Program,
+    duration: Time,
+    crystal_density: Density,
+    nucleation_stable: Nucleation = NoNucleation(),
+    cross_nucleation: Ratio = 0.0,
+    seed_mass_per_solvent: MassRatio = 0.0,
+    seed_size: Length = 100e-6,
+    seed_mass_stable: MassRatio = 0.0,
+    seed_size_stable: Length = 50e-6,
+) -> Any:
+    """Concentration between the two solubilities, and the share of the stable form in the crystals.
+
+    >>> drawing = polymorph_chart(
+    ...     solute_per_solvent=0.02,
+    ...     solubility={"law": "polynomial_solubility", "coefficients": [0.02]},
+    ...     solubility_law_stable={"law": "polynomial_solubility", "coefficients": [0.015]},
+    ...     growth={"law": "power_law_growth", "growth_coefficient": 1e-7, "growth_order": 1.0},
+    ...     growth_stable={"law": "power_law_growth", "growth_coefficient": 1e-7, "growth_order": 1.0},
+    ...     dissolution={"law": "power_law_dissolution", "dissolution_coefficient": 1e-5},
+    ...     temperature_program={
+    ...         "law": "power_cooling",
+    ...         "temperature_start": 298.15,
+    ...         "temperature_end": 298.15,
+    ...         "duration": 3600,
+    ...     },
+    ...     duration="8 hour",
+    ...     crystal_density=1540,
+    ...     seed_mass_per_solvent=0.01,
+    ...     seed_mass_stable=0.001,
+    ... )
+    >>> len(drawing.data)
+    4
+    """
+    out = polymorph_batch(
+        solute_per_solvent,
+        solubility,
+        solubility_law_stable,
+        growth,
+        growth_stable,
+        dissolution,
+        temperature_program,
+        duration,
+        crystal_density,
+        nucleation_stable=nucleation_stable,
+        cross_nucleation=cross_nucleation,
+        seed_mass_per_solvent=seed_mass_per_solvent,
+        seed_size=seed_size,
+        seed_mass_stable=seed_mass_stable,
+        seed_size_stable=seed_size_stable,
+    )
+    t = np.asarray(out.time) / 3600.0
+    drawing = figure(
+        axis_title("time", "hour"),
+        axis_title("solute_per_solvent", "kg/kg"),
+        title=_("Two polymorphs"),
+    )
+    for values, word, color, dash in (
+        (out.solute_per_solvent, _("dissolved"), ACCENT, "solid"),
+        (out.solubility_per_solvent, _("solubility, metastable form"), OUT, "dash"),
+        (out.solubility_stable, _("solubility, stable form"), LIQUID, "dash"),
+    ):
+        add_line(drawing, t, np.asarray(values), word, color=color, dash=dash)
+    share = 100.0 * np.asarray(out.stable_fraction)
+    add_line(drawing, t, share, _("stable form in the crystals"), color=SOLID, yaxis="y2")
+    drawing.update_layout(
+        yaxis2={
+            "overlaying": "y",
+            "side": "right",
+            "title": axis_title("stable_fraction", "percent"),
+            "showgrid": False,
+            "range": [0, 102],
         },
         margin={"r": 70, "t": 80},
         legend={"orientation": "h", "y": 1.08},

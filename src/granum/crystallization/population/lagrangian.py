@@ -365,7 +365,7 @@ class _Step(eqx.Module):
 def _closure(step: _Step, rate: Any, span: Any) -> tuple[Any, Any]:
     """Growth path of one step, and the relative residual of its equation."""
     there, slope = jax.jvp(step.rate, (jnp.zeros(()),), (jnp.ones(()),))
-    weight = _fitted_weight(-slope * span)
+    weight = fitted_weight(-slope * span)
     ratio, saturated, _rate = step.state((1.0 - weight) * span * rate)
     # An explicit part that would cross saturation (or leave it on the wrong side) gives way to the implicit
     # step.
@@ -392,7 +392,7 @@ def _closure(step: _Step, rate: Any, span: Any) -> tuple[Any, Any]:
     return path - value / lax.stop_gradient(1.0 - implicit * slope), residual
 
 
-def _fitted_weight(z: Any) -> Any:
+def fitted_weight(z: Any) -> Any:
     """Weight of the end of the step that makes ``y' = −λ y`` exact: ``1/(1 − e^(−z)) − 1/z``, from 1/2 to
     1.
     """

@@ -166,9 +166,10 @@ class Packets(Population):
 
     def _shifted(self, path: Any) -> tuple[Any, Any, Any]:
         low, high = jnp.maximum(self.low + path, 0.0), jnp.maximum(self.high + path, 0.0)
-        width = self.high - self.low
-        share = safe_divide(high - low, width, jnp.where(self.high + path > 0, 1.0, 0.0))
-        return low, high, self.number * jnp.clip(share, 0.0, 1.0)
+        # only what is cut at zero is lost: the ends of a narrow packet may be rounded apart or together
+        left = safe_divide(high, self.high - self.low, jnp.where(self.high + path > 0, 1.0, 0.0))
+        share = jnp.where(self.low + path >= 0.0, 1.0, jnp.clip(left, 0.0, 1.0))
+        return low, high, self.number * share
 
     def moments(self) -> Any:
         low, high = self.sizes()
