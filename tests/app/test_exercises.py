@@ -64,8 +64,8 @@ def test_fresh_numbers_are_the_same_for_the_same_seed_and_lie_in_their_range() -
             values = [Numbers(exercise, seed).drawn(name)[0] for seed in range(1, 40)]
             assert values == [Numbers(exercise, seed).drawn(name)[0] for seed in range(1, 40)]
             assert len(set(values)) > 3, (exercise["id"], name)
-            assert min(values) >= draw["from"] * 0.97, (exercise["id"], name)
-            assert max(values) <= draw["to"] * 1.03, (exercise["id"], name)
+            assert min(values) >= draw["from"] - 0.03 * abs(draw["from"]), (exercise["id"], name)
+            assert max(values) <= draw["to"] + 0.03 * abs(draw["to"]), (exercise["id"], name)
 
 
 def test_units_and_signs_are_told() -> None:
