@@ -243,22 +243,6 @@ def fluidization_curve() -> Shown:
     )
 
 
-def cyclones_grade() -> Shown:
-    """Grade efficiency of Stairmand's cyclone."""
-    figure = gr.cyclones.gas_cyclone_chart(
-        volume_flow=223 / 3600,
-        particle_density=2000.0,
-        fluid_density=1.2,
-        dynamic_viscosity=1.8e-5,
-        diameter=0.203,
-    )
-    charts.add_points(figure, [1.4], [50.0], "Stairmand: 50 % at 1.4 µm", color=charts.OUT)
-    return Shown(
-        figure,
-        "High-efficiency cyclone of 203 mm at 223 m³/h with dust of 2000 kg/m³; the point is the cut that Stairmand measured.",  # noqa: E501
-    )
-
-
 def comminution_energy() -> Shown:
     """Bond's law with two printed mills on it."""
     figure = charts.figure(
@@ -304,7 +288,6 @@ FIGURES = {
         materials_solubility,
         materials_water,
         fluidization_curve,
-        cyclones_grade,
         comminution_energy,
     )
 }
