@@ -64,37 +64,6 @@ def _table(heads: list[str], rows: list[list[str]]) -> str:
 
 
 # ---- figures ---------------------------------------------------------------------------------------
-def particles_drag() -> Shown:
-    """Every drag law against measured drag."""
-    ranking = gr.particles.drag_ranking()
-    rows = [
-        [
-            str(name).replace("_", "–").title(),
-            f"{100 * float(rms):.1f}",
-            f"{100 * float(mean):+.1f}",
-            f"{100 * float(largest):.0f}",
-            f"{100 * float(covered):.0f}",
-            f"{format_number(float(low), 2)} … {format_number(float(high), 2)}",
-        ]
-        for name, rms, mean, largest, covered, low, high in zip(
-            ranking.drag,
-            ranking.deviation_rms,
-            ranking.deviation_mean,
-            ranking.deviation_largest,
-            ranking.measurements_covered,
-            ranking.reynolds_lowest,
-            ranking.reynolds_highest,
-            strict=True,
-        )
-    ]
-    caption = (
-        "Deviation of every drag law of a sphere from the means of measurements tabulated by Morsi and Alexander (1972), inside the range each law claims. "  # noqa: E501
-        "Table: the same laws against these means and the measurements of Roos and Willmarth (1971) together; laws that cover all measurements first."  # noqa: E501
-    )
-    heads = ["law", "rms deviation / %", "mean / %", "largest / %", "measurements covered / %", "range of Re"]
-    return Shown(gr.particles.drag_deviation_chart(deviation_largest=0.25), caption, _table(heads, rows))
-
-
 def particles_sizes() -> Shown:
     """A sieve analysis with its Rosin–Rammler fit."""
     test = gr.particles.SieveAnalysis.read(
@@ -260,46 +229,6 @@ def materials_water() -> Shown:
     return Shown(figure, "Vapor pressure of water with the check values of the IAPWS release.")
 
 
-def fluidization_minimum() -> Shown:
-    """Every correlation of minimum fluidization against one measured powder."""
-    measured = 0.040
-    spread = gr.fluidization.minimum_fluidization_spread(
-        particle_diameter="160 um",
-        particle_density=2600,
-        fluid_density=1.2,
-        dynamic_viscosity=1.8e-5,
-        void_fraction=0.55,
-        sphericity=0.67,
-    )
-    names = [name.replace("_", "–").title() for name in spread.correlation]
-    found, valid = np.asarray(spread.minimum_fluidization_velocity), np.asarray(spread.in_range) == 1
-    figure = charts.figure(charts.axis_title("minimum_fluidization_velocity", "cm/s"), "", showlegend=True)
-    charts.add_line(
-        figure, [100 * measured] * 2, [names[0], names[-1]], "measured", color=charts.OUT, dash="dash"
-    )
-    for inside, label in ((True, "within its range"), (False, "outside its range")):
-        chosen = np.flatnonzero(valid == inside)
-        charts.add_points(
-            figure,
-            100 * found[chosen],
-            [names[i] for i in chosen],
-            label,
-            color=charts.ACCENT,
-            hollow=not inside,
-        )
-    figure.update_yaxes(type="category", categoryorder="array", categoryarray=names, automargin=True)
-    rows = [
-        [name, f"{100 * v:.2f}", f"{round(100 * (v / measured - 1)):+d}", "yes" if inside else "no"]
-        for name, v, inside in zip(names, found, valid, strict=True)
-    ]
-    return Shown(
-        figure,
-        "Sharp sand of 160 µm in air, sphericity 0.67, void fraction 0.55: measured 4.0 cm/s (Kunii and Levenspiel, chapter 3) and what every "  # noqa: E501
-        "correlation says. Ergun's equation is told shape and void fraction, most others are not; hollow points lie outside what their source covers.",  # noqa: E501
-        _table(["correlation", "minimum fluidization / (cm/s)", "difference / %", "within its range"], rows),
-    )
-
-
 def fluidization_curve() -> Shown:
     """Pressure curve of a made test."""
     test = gr.fluidization.PressureCurve.read(
@@ -311,22 +240,6 @@ def fluidization_curve() -> Shown:
     return Shown(
         test.chart(),
         "A made pressure curve (4.0 cm/s, void fraction 0.43, with random errors) and the minimum fluidization velocity read from it.",  # noqa: E501
-    )
-
-
-def cyclones_grade() -> Shown:
-    """Grade efficiency of Stairmand's cyclone."""
-    figure = gr.cyclones.gas_cyclone_chart(
-        volume_flow=223 / 3600,
-        particle_density=2000.0,
-        fluid_density=1.2,
-        dynamic_viscosity=1.8e-5,
-        diameter=0.203,
-    )
-    charts.add_points(figure, [1.4], [50.0], "Stairmand: 50 % at 1.4 µm", color=charts.OUT)
-    return Shown(
-        figure,
-        "High-efficiency cyclone of 203 mm at 223 m³/h with dust of 2000 kg/m³; the point is the cut that Stairmand measured.",  # noqa: E501
     )
 
 
@@ -364,7 +277,6 @@ def comminution_energy() -> Shown:
 FIGURES = {
     f.__name__: f
     for f in (
-        particles_drag,
         particles_sizes,
         porous_bed,
         settling_curve,
@@ -375,9 +287,7 @@ FIGURES = {
         humid_gas_saturation,
         materials_solubility,
         materials_water,
-        fluidization_minimum,
         fluidization_curve,
-        cyclones_grade,
         comminution_energy,
     )
 }

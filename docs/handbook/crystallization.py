@@ -114,8 +114,20 @@ nitrate = c.choose({"law": "library_solubility", "solute": "potassium nitrate"},
 salt = c.choose({"law": "library_solubility", "solute": "sodium chloride"}, *HOT_COLD)
 
 
+FRENCH = {
+    "potassium nitrate": "nitrate de potassium",
+    "sodium sulfate": "sulfate de sodium",
+    "copper sulfate": "sulfate de cuivre",
+    "sodium chloride": "chlorure de sodium",
+}
+
+
 def figure_solubility():
-    return materials_solubility().figure
+    drawing = materials_solubility().figure
+    drawing.update_yaxes(title=said("solubility / g per 100 g of water", "solubilité / g pour 100 g d’eau"))
+    for trace in drawing.data:
+        trace.name = said(trace.name, FRENCH.get(trace.name, trace.name))
+    return drawing
 
 
 def figure_nucleation():

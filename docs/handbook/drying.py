@@ -173,7 +173,10 @@ def figure_path():
 
 
 def figure_energy():
-    drawing = figure(axis_title("temperature_inlet", "degC"), axis_title("energy_per_water", "MJ/kg"))
+    drawing = figure(
+        axis_title("temperature", "degC", said("air heated to", "air chauffé à")),
+        axis_title("energy_per_water", "MJ/kg"),
+    )
     inlet = np.linspace(45, 200, 40)
     for outlet, color, dash in zip((0.2, 0.5, 0.9), LINES, DASHES, strict=False):
         energy = [float(spent(t, outlet).energy_per_water) / 1e6 for t in inlet]

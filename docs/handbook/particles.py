@@ -155,6 +155,10 @@ def figure_drag():
     return p.drag_chart()
 
 
+def figure_deviation():
+    return p.drag_deviation_chart(deviation_largest=0.25)
+
+
 def figure_shape():
     drawing = figure(
         axis_title("particle_diameter", "um"), axis_title("terminal_velocity", "mm/s"), x_log=True, y_log=True
