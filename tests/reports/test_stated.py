@@ -17,22 +17,25 @@ FIGURE = re.compile(r"^\[\[figure (\w+)\]\]$", re.MULTILINE)
 DOCS = Path(__file__).parents[2] / "docs"
 
 
+DOMAINS = sorted(place.stem for place in (DOCS / "handbook").glob("*.py"))
+
+
 @pytest.fixture
-def chapters(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
+def chapters(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """The calculations, which take what the documentation built from the same content has kept."""
     monkeypatch.syspath_prepend(str(DOCS))
     import chapters
 
-    monkeypatch.setattr(chapters, "KEPT", tmp_path)
     yield chapters
     sys.modules.pop("chapters")
 
 
-def test_chapters_state_what_is_calculated(chapters: Any) -> None:
-    for domain in chapters.domains():
-        said = [sorted(m[1] for m in STATED.finditer(chapters.chapter_text(domain, c))) for c in ("en", "fr")]
-        assert said[0] == said[1]
-        for code in ("en", "fr"):
-            assert chapters.moved(domain, code) == []
+@pytest.mark.parametrize("domain", DOMAINS)
+def test_chapters_state_what_is_calculated(domain: str, chapters: Any) -> None:
+    said = [sorted(m[1] for m in STATED.finditer(chapters.chapter_text(domain, c))) for c in ("en", "fr")]
+    assert said[0] == said[1]
+    for code in ("en", "fr"):
+        assert chapters.moved(domain, code) == []
 
 
 def test_a_result_that_moved_is_told(chapters: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -40,13 +43,20 @@ def test_a_result_that_moved_is_told(chapters: Any, monkeypatch: pytest.MonkeyPa
     assert "voids = 0.39" in chapters.moved("filtration", "en")[0]
 
 
-def test_figures_are_drawn_and_kept(chapters: Any) -> None:
-    for domain in chapters.domains():
-        for code in ("en", "fr"):
-            for name in FIGURE.findall(chapters.chapter_text(domain, code)):
-                first = chapters.figure(domain, name, code)
-                assert '"data"' in first
-                assert first == chapters.figure(domain, name, code)
+def test_figures_are_drawn_and_kept(chapters: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(chapters, "KEPT", tmp_path)
+    for code in ("en", "fr"):
+        for name in FIGURE.findall(chapters.chapter_text("settling", code)):
+            first = chapters.figure("settling", name, code)
+            assert '"data"' in first
+            assert first == chapters.figure("settling", name, code)
+
+
+@pytest.mark.parametrize("domain", DOMAINS)
+def test_both_languages_show_the_same_figures(domain: str, chapters: Any) -> None:
+    shown = [FIGURE.findall(chapters.chapter_text(domain, code)) for code in ("en", "fr")]
+    assert shown[0] == shown[1]
+    assert all(f"def figure_{name}(" in (DOCS / "handbook" / f"{domain}.py").read_text() for name in shown[0])
 
 
 def test_a_number_is_printed_as_its_language_does() -> None:
