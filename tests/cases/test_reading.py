@@ -171,8 +171,10 @@ def test_two_independent_specifications_are_met() -> None:
 
 
 def test_specification_out_of_reach_says_what_can_be_reached() -> None:
-    said = r"out of reach: it is 3600 kg/h at split.side_fraction = 0 % and 36 t/h at 90 %"
-    with pytest.raises(ConvergenceError, match=said):
+    with pytest.raises(
+        ConvergenceError,
+        match=r"out of reach: it is 3600 kg/h at split.side_fraction = 0 % and 36 t/h at 90 %",
+    ):
         read_text(TWO.replace('"4 kg/s"', '"40 kg/s"')).solve()
 
 

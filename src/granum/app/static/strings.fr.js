@@ -295,11 +295,11 @@ export const french = {
   'Two figures that pull apart: what the one costs in terms of the other.':
     'Deux grandeurs qui s’opposent : ce que l’une coûte à l’autre.',
   'and': 'et',
-  '{input} is {mean} ± {spread}': '{input} vaut {mean} ± {spread}',
-  '{input} lies between {low} and {high}': '{input} est entre {low} et {high}',
+  '{input} is {mean} ± {spread}': '{input} de {mean} ± {spread}',
+  '{input} lies between {low} and {high}': '{input} entre {low} et {high}',
   'the smallest {figure}': 'le plus petit possible : {figure}',
   'the largest {figure}': 'le plus grand possible : {figure}',
-  '{figures} when {inputs}': '{figures} lorsque {inputs}',
+  '{figures} when {inputs}': '{figures}, avec : {inputs}',
   '{figures} in {cases}': '{figures} dans {cases}',
   '{count} cases': '{count} cas',
   '{cases} cases for {asked} samples: the next power of two, {base}, for each of {inputs} inputs and twice more.':

@@ -33,7 +33,10 @@ NO_FLOW = (
     "The strength grows faster with consolidation than the stress in an arch: no outlet is wide enough; take "
     "a steeper or smoother hopper."
 )
-JAMMED = "The orifice is too narrow for the grains: it must be wider than k grains."
+JAMMED = (
+    "The orifice is too narrow for the grains: it must be wider than k times their diameter, the empty ring "
+    "of Beverloo's law."
+)
 _POWDER = {
     "effective_friction_angle": (35.0 * DEGREE, 55.0 * DEGREE),
     "wall_friction_angle": (10.0 * DEGREE, 30.0 * DEGREE),

@@ -110,6 +110,8 @@ def moisture_ratio_hukill(depth_units: PositiveNumber, time_units: PositiveNumbe
     Exact for drying in proportion to moisture ratio and to the cooling of the air. At the bottom it halves
     with each time unit:
 
+    >>> round(moisture_ratio_hukill(depth_units=1.0, time_units=1.0), 4)
+    0.6667
     >>> round(moisture_ratio_hukill(depth_units=1e-12, time_units=1.0), 9)
     0.5
     """

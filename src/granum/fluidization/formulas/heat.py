@@ -136,8 +136,10 @@ def nusselt_number_gunn(
     """Nusselt number of particles in a fixed or fluidized bed by Gunn; with Schmidt for Prandtl the Sherwood
     number.
 
-    In still fluid and an almost empty bed it tends to the 2 of a single sphere:
+    In still fluid and an almost empty bed it tends to the 2 of a single sphere.
 
+    >>> round(nusselt_number_gunn(reynolds=10.0, prandtl_number=0.7, void_fraction=0.4), 2)
+    10.04
     >>> round(nusselt_number_gunn(reynolds=1e-30, prandtl_number=0.7, void_fraction=0.999999), 3)
     2.0
     """

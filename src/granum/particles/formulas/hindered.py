@@ -99,6 +99,8 @@ def settling_exponent_khan_richardson(
     vessel diameter of 0.45 the bracket turns negative; it is held at zero there. Textbooks that print 2.4 for
     the 1.24 of the wall term find larger exponents.
 
+    >>> round(settling_exponent_khan_richardson(reynolds=0.5), 2)
+    4.47
     >>> round(settling_exponent_khan_richardson(reynolds=1e-9), 2)
     4.8
     """
@@ -180,6 +182,8 @@ def hindrance_khan_richardson(solids_volume_fraction: Solids, reynolds: Positive
     """Hindered over terminal velocity by a power of the void fraction with Khan and Richardson's exponent,
     far from walls.
 
+    >>> round(hindrance_khan_richardson(solids_volume_fraction=0.1, reynolds=0.5), 4)
+    0.6243
     >>> round(hindrance_khan_richardson(solids_volume_fraction=0.1, reynolds=1e-9), 4)
     0.6031
     """
@@ -200,6 +204,8 @@ def hindrance_barnea_mizrahi(solids_volume_fraction: Solids, reynolds: PositiveN
 
     Solved in closed form. Creeping limit (1 − φ)/[(1 + φ^⅓) exp(5φ/3(1 − φ))].
 
+    >>> round(hindrance_barnea_mizrahi(solids_volume_fraction=0.1, reynolds=0.5), 4)
+    0.5406
     >>> round(hindrance_barnea_mizrahi(solids_volume_fraction=0.1, reynolds=1e-9), 4)
     0.5108
     """

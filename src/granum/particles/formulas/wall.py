@@ -117,6 +117,8 @@ def wall_factor_di_felice(wall_ratio: WallRatio, reynolds: PositiveNumber = 0.01
     """Wall factor of a rigid sphere from creeping to turbulent flow by Di Felice, on the unbounded Reynolds
     number.
 
+    >>> round(wall_factor_di_felice(wall_ratio=0.25, reynolds=0.5), 4)
+    0.5264
     >>> round(wall_factor_di_felice(wall_ratio=0.25, reynolds=1e-9), 4)
     0.5142
     """
