@@ -1,5 +1,9 @@
 """Dust in gas: bag filters, scrubbers, electrostatic precipitators, settling chambers, emissions."""
 
+from granum.dust.dusts import (
+    Explosibility as Explosibility,
+    dust_explosibility as dust_explosibility,
+)
 from granum.dust.equipment.bag_filter import (
     BagFigures as BagFigures,
     BagFilter as BagFilter,
@@ -9,6 +13,12 @@ from granum.dust.equipment.collector import (
     Cleaned as Cleaned,
     Collector as Collector,
     Seen as Seen,
+)
+from granum.dust.equipment.hood import (
+    Drawn as Drawn,
+    Extracted as Extracted,
+    ExtractionHood as ExtractionHood,
+    HoodFigures as HoodFigures,
 )
 from granum.dust.equipment.mesh_pad import (
     Demisted as Demisted,
