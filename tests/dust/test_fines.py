@@ -8,12 +8,15 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+import granum as gr
+from granum.core.errors import InputError
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.flash import FlashDryer
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.silo import SiloDryer
 from granum.drying.equipment.spray import SprayDryer
 from granum.drying.gas_solid.kinetics import SurfaceKinetics
+from granum.dust.equipment.hood import ExtractionHood
 from granum.materials.library import session
 from granum.streams import fines
 from granum.streams.atmosphere import explosible
@@ -159,3 +162,26 @@ def test_every_dust_of_the_library_stands_in_the_table() -> None:
     for row in dusts().values():
         assert 2e5 < row.explosion_pressure < 2e6
         assert 5e5 < row.deflagration_index < 6e7
+
+
+def test_a_hood_takes_what_the_air_holds() -> None:
+    """By hand: of what falls as fast as the air rises, 1/e; every size class accounted for."""
+    feed, drawn = solid(flow=2.0), air(1.2, 293.0)
+    made = ExtractionHood(1.0, entrainment=True).operate(feed=feed, air=drawn)
+    out = np.asarray(made.outlets.gas.solid + made.outlets.product.solid)
+    np.testing.assert_allclose(out, np.asarray(feed.solid), rtol=1e-9)
+    speed = float(made.figures.superficial_velocity)
+    share = np.asarray(made.outlets.gas.solid / feed.solid)
+    np.testing.assert_allclose(share, np.exp(-np.asarray(fines.fall(feed, drawn)) / speed), rtol=1e-6)
+    assert (np.diff(share, axis=1) < 0.0).all()
+    known = ExtractionHood(1.0, 1e-3).operate(feed=feed, air=drawn).figures
+    assert float(known.entrained_share) == pytest.approx(1e-3)
+    assert float(known.concentration_outlet) == pytest.approx(2e-3 / float(drawn.gas_volume_flow), rel=1e-3)
+
+
+def test_dust_data_is_a_card() -> None:
+    """Class St 1 ends at 200 bar m/s: starch and sugar are in it, aluminum (St 3) is beyond 300."""
+    found = {name: gr.dust.dust_explosibility(name) for name in ("wheat starch", "Sugar", "aluminum")}
+    assert [row.deflagration_index > 200e5 for row in found.values()] == [False, False, True]
+    with pytest.raises(InputError, match="lactose"):
+        gr.dust.dust_explosibility("lactos")

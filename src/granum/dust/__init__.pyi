@@ -1,5 +1,9 @@
 """Dust in gas: bag filters, scrubbers, electrostatic precipitators, settling chambers, emissions."""
 
+from granum.dust.dusts import (
+    Explosibility as Explosibility,
+    dust_explosibility as dust_explosibility,
+)
 from granum.dust.equipment.bag_filter import (
     BagFigures as BagFigures,
     BagFilter as BagFilter,
@@ -9,6 +13,18 @@ from granum.dust.equipment.collector import (
     Cleaned as Cleaned,
     Collector as Collector,
     Seen as Seen,
+)
+from granum.dust.equipment.hood import (
+    Drawn as Drawn,
+    Extracted as Extracted,
+    ExtractionHood as ExtractionHood,
+    HoodFigures as HoodFigures,
+)
+from granum.dust.equipment.mesh_pad import (
+    Demisted as Demisted,
+    MeshFigures as MeshFigures,
+    MeshPad as MeshPad,
+    Meshed as Meshed,
 )
 from granum.dust.equipment.precipitator import (
     Charged as Charged,
@@ -20,11 +36,20 @@ from granum.dust.equipment.settling_chamber import (
     Fallen as Fallen,
     SettlingChamber as SettlingChamber,
 )
+from granum.dust.equipment.towers import (
+    PackedScrubber as PackedScrubber,
+    ScrubbingTower as ScrubbingTower,
+    SprayTower as SprayTower,
+    TowerFigures as TowerFigures,
+)
 from granum.dust.equipment.venturi import (
-    Scrubbed as Scrubbed,
-    Throat as Throat,
     VenturiFigures as VenturiFigures,
     VenturiScrubber as VenturiScrubber,
+)
+from granum.dust.equipment.washer import (
+    Scrubbed as Scrubbed,
+    Washed as Washed,
+    Washer as Washer,
 )
 from granum.dust.formulas.bags import (
     residual_drag_pulse_jet as residual_drag_pulse_jet,
@@ -50,6 +75,11 @@ from granum.dust.formulas.precipitation import (
 from granum.dust.formulas.scrubbers import (
     droplet_diameter_venturi as droplet_diameter_venturi,
     grade_efficiency_johnstone as grade_efficiency_johnstone,
+    grade_efficiency_mesh as grade_efficiency_mesh,
+    grade_efficiency_packed_scrubber as grade_efficiency_packed_scrubber,
+    grade_efficiency_spray_tower as grade_efficiency_spray_tower,
     impaction_number as impaction_number,
     pressure_drop_venturi as pressure_drop_venturi,
+    target_efficiency_drop as target_efficiency_drop,
+    target_efficiency_wire as target_efficiency_wire,
 )

@@ -104,5 +104,4 @@ def _lower_limit(mixture: Mixture, name: str) -> float | None:
         like = mixture.materials.solid(name).dust
     except InputError:
         return None
-    limit = dust(like).explosible_concentration if like else np.nan
-    return limit if np.isfinite(limit) else None
+    return dust(like).explosible_concentration if like else None

@@ -12,7 +12,7 @@ COARSEST = 5e-4  # m, above which particles do not count as dust that burns
 
 
 class DustData(NamedTuple):
-    """A tested dust, SI; not a number where the table has none."""
+    """A tested dust, SI."""
 
     name: str
     median_size: float

@@ -7,7 +7,6 @@ from typing import Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.flags import unsolved
 from granum.core.kinds import (
     Area,
     Concentration,
@@ -22,28 +21,16 @@ from granum.core.kinds import (
     Temperature,
 )
 from granum.core.limits import Limit
-from granum.dust.equipment.collector import EMISSION, Collector, over_axes, seen, slip
+from granum.dust.equipment.collector import EMISSION, Collector, seen, slip
+from granum.dust.equipment.washer import SLOWEST, Scrubbed, Washed, Washer
 from granum.dust.formulas.scrubbers import (
     droplet_diameter_venturi,
     grade_efficiency_johnstone,
     impaction_number,
     pressure_drop_venturi,
 )
-from granum.numerics.smooth import safe_divide
-from granum.streams.equilibrium import HumidMixture
-from granum.streams.equipment.humid_gas import UNSOLVED
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Utilities
-from granum.streams.utilities import FANNED, fanned
-
-SLOWEST, MOST_LIQUID = 1e-3, 0.1  # m/s, and volume of liquid per gas
-
-
-class Scrubbed(NamedTuple):
-    """Moist gas with what escapes, and the water with the dust."""
-
-    gas: Stream
-    slurry: Stream
+from granum.streams.units import Limits
 
 
 class VenturiFigures(NamedTuple):
@@ -59,26 +46,13 @@ class VenturiFigures(NamedTuple):
     emission_concentration: Concentration
 
 
-class Throat(NamedTuple):
-    """What happens in the throat, the mixture in equilibrium, and the share caught of each species and
-    class.
-    """
-
-    velocity: Any
-    ratio: Any
-    drop_size: Any
-    lost: Any
-    mixed: Stream
-    share: Any
-
-
 @equipment(
     "venturi_scrubber",
     source="johnstone1954; calvert1970; theodore2012, p. 15.7",
     title="Venturi scrubber",
     equation=r"E = 1 - \exp\left(-k\,\frac{Q_l}{Q_g}\sqrt\psi\right),\ \Delta p = \rho_l v^2 \frac{Q_l}{Q_g}",
 )
-class VenturiScrubber(Collector):
+class VenturiScrubber(Washer):
     """Dust is caught by drops of water in a throat, which a separator takes out of the gas; the gas leaves in
     equilibrium with the water.
 
@@ -98,51 +72,29 @@ class VenturiScrubber(Collector):
         "drop": Limit("pressure drop of a venturi", 1e3, 2.5e4, "Pa", "theodore2012"),
     }
 
-    utilities: ClassVar[Utilities] = FANNED
-
-    def inside(self, feed: Stream, water: Stream) -> Throat:
+    def inside(self, feed: Stream, water: Stream) -> Washed:
         gas = seen(feed)
         velocity = jnp.maximum(gas.volume_flow / self.throat_area, SLOWEST)
-        some = gas.volume_flow > 0.0
-        ratio = jnp.where(
-            some, jnp.minimum(safe_divide(water.liquid_volume_flow, gas.volume_flow), MOST_LIQUID), 0.0
-        )
+        ratio = self.ratio(feed, water)
         drops = droplet_diameter_venturi(velocity, ratio)
         impaction = impaction_number(
             gas.size, gas.particle_density, velocity, gas.viscosity, drops, slip(gas, feed)
         )
         share = grade_efficiency_johnstone(impaction, ratio, self.johnstone_constant)
         lost = pressure_drop_venturi(velocity, ratio, water.liquid_density)
-        both = feed + water
-        both = both.replace(pressure=jnp.maximum(feed.pressure - lost, 1e3))
-        mixed = HumidMixture(feed.mixture).at_own_enthalpy(both)
-        unsolved(jnp.isfinite(mixed.temperature), type(self).card, reason=UNSOLVED)
-        return Throat(velocity, ratio, drops, lost, mixed, share)
+        return Washed(velocity, ratio, drops, lost, self.mixed(feed, water, lost), share)
 
-    def outlets(self, inside: Throat, feed: Stream, water: Stream) -> Scrubbed:
-        mixed = inside.mixed
-        kept = water.solid + feed.solid * over_axes(inside.share, feed)
-        return Scrubbed(
-            mixed.replace(solid=mixed.solid - kept, liquid=jnp.zeros_like(mixed.liquid)),
-            mixed.replace(solid=kept, gas=jnp.zeros_like(mixed.gas)),
-        )
-
-    def figures(self, inside: Throat, outlets: Scrubbed, feed: Stream, water: Stream) -> VenturiFigures:
-        gone = feed.liquid_flow + water.liquid_flow - outlets.slurry.liquid_flow
-        caught = jnp.sum(feed.solid * over_axes(inside.share, feed))
+    def figures(self, inside: Washed, outlets: Scrubbed, feed: Stream, water: Stream) -> VenturiFigures:
         return VenturiFigures(
             inside.velocity,
             inside.ratio,
-            inside.drop_size,
+            inside.body,
             inside.lost,
-            outlets.gas.temperature,
-            jnp.maximum(gone, 0.0),
-            safe_divide(caught, feed.solid_flow),
-            self.emission(outlets.gas),
+            *self.cleaned(inside, outlets, feed, water),
         )
 
     def measured(
-        self, inside: Throat, outlets: Scrubbed, figures: VenturiFigures, feed: Stream, water: Stream
+        self, inside: Washed, outlets: Scrubbed, figures: VenturiFigures, feed: Stream, water: Stream
     ) -> dict[str, Any]:
         return {
             "emission": self.over_limit(figures.emission_concentration),
@@ -150,8 +102,3 @@ class VenturiScrubber(Collector):
             "liquid": inside.ratio,
             "drop": inside.lost,
         }
-
-    def drawn(
-        self, inside: Throat, outlets: Scrubbed, figures: VenturiFigures, feed: Stream, water: Stream
-    ) -> dict[str, Any]:
-        return {"electric_power_fan": fanned(feed.gas_volume_flow, inside.lost)}
