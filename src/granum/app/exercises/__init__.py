@@ -37,7 +37,7 @@ def domain_labels() -> dict[str, str]:
 
 @cache
 def declared() -> dict[str, list[dict[str, Any]]]:
-    """All exercises and quizzes as written in the TOML files of this folder, and the sections of the notes."""
+    """Exercises, quizzes and sections of the notes as written in the TOML files of this folder."""
     found: dict[str, list[dict[str, Any]]] = {"exercise": [], "quiz": [], "notes": []}
     for path in sorted((files("granum") / "app" / "exercises").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".toml"):
@@ -97,7 +97,7 @@ def _place(one: dict[str, Any]) -> int:
 
 
 def _sections(notes: dict[str, Any]) -> list[dict[str, Any]]:
-    """The sections of one of the notes with the exercises that belong to each; ``quizzes`` where questions do."""
+    """The sections of one of the notes, each with its exercises; ``quizzes`` where a question belongs to it."""
     of: dict[str, list[str]] = {}
     for one in declared()["exercise"]:
         for section in one["sections"]:
