@@ -465,6 +465,35 @@ def show(key: Key, as_json: Json = False) -> None:
         print_card(card)
 
 
+@app.command("exercises")
+@one_message
+def course(
+    name: Annotated[
+        str, typer.Argument(help="One of the exercises; without it all are listed.", show_default=False)
+    ] = "",
+    seed: Annotated[int | None, typer.Option(min=0, help="Fresh numbers, drawn from this seed.")] = None,
+    answers: Annotated[bool, typer.Option("--answers", help="Tell what is right at every step.")] = False,
+    seeds: Annotated[
+        str, typer.Option(help="The sheet of a class as CSV, one row a seed: 1-30.", show_default=False)
+    ] = "",
+    out: Annotated[Path | None, typer.Option(help="Write the sheet there instead of printing it.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Exercises of the course, with their answers for the teacher."""
+    from granum.app.exercises import listing, printing
+
+    if seeds and not name:
+        raise InputError(_("Which exercise? Its name stands in 'granum exercises'."), name="name")
+    if seeds:
+        printing.give_sheet(name, seeds, out)
+    elif as_json:
+        emit(printing.told(name, seed, answers) if name else listing())
+    elif name:
+        printing.print_exercise(name, seed, answers)
+    else:
+        printing.print_listing()
+
+
 @app.command("app")
 @one_message
 def serve(

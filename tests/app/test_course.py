@@ -57,3 +57,48 @@ def test_every_choice_has_its_reason_and_one_is_right(exercise: dict[str, Any], 
         assert len(verdict["text"]) > 10
     assert marked(exercise["id"], place, None, "12")["verdict"] == "unclear"
     assert marked(exercise["id"], place, None, "")["verdict"] == "unclear"
+
+
+def test_every_section_of_the_notes_has_an_exercise_or_a_question() -> None:
+    told = exercises.listing()["notes"]
+    assert [len(notes["sections"]) for notes in told] == [141, 81, 50]
+    bare = [(n["name"], s) for n in told for s in n["sections"] if not s["exercises"] and not s["quizzes"]]
+    assert not bare
+    known = {f"{n['key']} {number}" for n in exercises.declared()["notes"] for number in n["sections"]}
+    named = {s for kind in ("exercise", "quiz") for e in exercises.declared()[kind] for s in e["sections"]}
+    assert named <= known
+
+
+def test_the_course_is_large_enough_for_a_year() -> None:
+    assert len(ALL) >= 60
+    assert sum(len(e["steps"]) for e in ALL) >= 3 * len(ALL)
+    assert len(CHOSEN) >= 20
+
+
+WORKED = {  # printed answers of the notes' ten worked exercises, as many as each prints
+    "psychrometer": 5,
+    "air-at-zero": 5,
+    "saturated-air": 4,
+    "chart-readings": 4,
+    "mixing-two-airs": 4,
+    "two-airs": 4,
+    "air-from-enthalpy": 2,
+    "buchner-to-filter": 8,
+    "counted-powder": 5,
+    "cyclone-turns": 1,
+    "grain-dryer": 12,
+}
+
+
+@pytest.mark.parametrize("name", WORKED)
+def test_each_worked_exercise_of_the_notes_is_there_and_met_or_named_as_erratum(name: str) -> None:
+    found, met = exercises.exercise(name), 0
+    for place, step in enumerate(found["steps"]):
+        asked = step.get("expected", {})
+        if "value" in asked:
+            calculated = Numbers(found).calculated(place)
+            assert calculated == pytest.approx(asked["value"], abs=asked["within"]), step["ask"]["en"]
+        if "misprint" in asked:
+            assert step["erratum"]["fr"]
+        met += "value" in asked or "misprint" in asked
+    assert met == WORKED[name]

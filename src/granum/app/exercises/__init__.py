@@ -37,8 +37,8 @@ def domain_labels() -> dict[str, str]:
 
 @cache
 def declared() -> dict[str, list[dict[str, Any]]]:
-    """All exercises and quizzes as written in the TOML files of this folder."""
-    found: dict[str, list[dict[str, Any]]] = {"exercise": [], "quiz": []}
+    """Exercises, quizzes and sections of the notes as written in the TOML files of this folder."""
+    found: dict[str, list[dict[str, Any]]] = {"exercise": [], "quiz": [], "notes": []}
     for path in sorted((files("granum") / "app" / "exercises").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".toml"):
             for sort, rows in tomllib.loads(path.read_text(encoding="utf-8")).items():
@@ -77,7 +77,7 @@ def listing() -> dict[str, Any]:
     labels = domain_labels()
     rows = [
         in_language({"id": e["id"], "title": e["title"], "domain": e["domain"], "steps": len(e["steps"])})
-        for e in declared()["exercise"]
+        for e in sorted(declared()["exercise"], key=_place)
     ]
     domains = [
         {"name": name, "label": label, "exercises": [e for e in rows if e["domain"] == name]}
@@ -86,7 +86,28 @@ def listing() -> dict[str, Any]:
     return {
         "domains": [d for d in domains if d["exercises"]],
         "quizzes": in_language(declared()["quiz"]),
+        "notes": [{"name": n["name"], "sections": _sections(n)} for n in declared()["notes"]],
     }
+
+
+def _place(one: dict[str, Any]) -> int:
+    """Where an exercise stands in the course: at the earliest of its sections."""
+    order = [f"{n['key']} {number}" for n in declared()["notes"] for number in n["sections"]]
+    return min(order.index(section) for section in one["sections"])
+
+
+def _sections(notes: dict[str, Any]) -> list[dict[str, Any]]:
+    """The sections of one of the notes, each with its exercises; ``quizzes`` where a question belongs to it."""
+    of: dict[str, list[str]] = {}
+    for one in declared()["exercise"]:
+        for section in one["sections"]:
+            of.setdefault(section, []).append(one["id"])
+    asked = {section for one in declared()["quiz"] for section in one["sections"]}
+    places = [(number, f"{notes['key']} {number}") for number in notes["sections"]]
+    return [
+        {"number": number, "exercises": of.get(place, []), "quizzes": place in asked}
+        for number, place in places
+    ]
 
 
 def worked(name: str, seed: int | None = None) -> dict[str, Any]:
