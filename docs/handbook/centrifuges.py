@@ -41,7 +41,7 @@ disc = {
     "disc_angle": "40 degree",
 }
 sigma = {
-    "tubular": float(ce.sigma_factor_tubular(**tubular)),
+    "tubular": float(ce.sigma_factor_tubular_half_thickness(**tubular)),
     "decanter": float(ce.sigma_factor_scroll(**decanter)),
     "disc": float(ce.sigma_factor_disc(**disc)),
 }
@@ -49,11 +49,11 @@ real = {"tubular": 0.9, "decanter": 0.6, "disc": 0.55}
 # ---- machines_more
 FLOW = 5 / 3600
 cut = {
-    name: float(ce.cut_size_centrifuge(FLOW, s, **CLAY, sigma_efficiency=real[name]))
+    name: float(ce.cut_size_centrifuge(FLOW, s, **CLAY, flow_multiple=2.0, sigma_efficiency=real[name]))
     for name, s in sigma.items()
 }
 handles = {
-    name: float(ce.volume_flow_centrifuge("1 um", s, **CLAY, sigma_efficiency=real[name]))
+    name: float(ce.volume_flow_centrifuge("1 um", s, **CLAY, flow_multiple=2.0, sigma_efficiency=real[name]))
     for name, s in sigma.items()
 }
 basin = float(p.terminal_velocity_stokes("1 um", **CLAY))
@@ -163,7 +163,9 @@ def figure_cut():
     )
     flows = np.geomspace(0.3, 100, 40)
     for (name, label), color, dash in zip(words, LINES, DASHES, strict=False):
-        cuts_ = ce.cut_size_centrifuge(flows / 3600, sigma[name], **CLAY, sigma_efficiency=real[name])
+        cuts_ = ce.cut_size_centrifuge(
+            flows / 3600, sigma[name], **CLAY, flow_multiple=2.0, sigma_efficiency=real[name]
+        )
         add_line(drawing, flows, 1e6 * np.asarray(cuts_), label, color=color, dash=dash)
     return drawing
 
