@@ -79,6 +79,7 @@ def figure(domain: str, name: str, code: str) -> str:
     def drawn() -> str:
         with language(code):
             chart = _calculated(domain)[f"figure_{name}"]()
+        chart.update_layout(title=None)  # the caption says it
         if code == "fr":
             chart.update_layout(separators=",\u202f")
         return chart.to_json()

@@ -18,6 +18,7 @@ import numpy as np
 
 import granum as gr
 from granum.core import charts, registry
+from granum.core.i18n import current_language
 from granum.core.units import format_number, from_si, pretty_unit, read_quantity
 from granum.reports.quantities import figure_named, value_text
 
@@ -344,4 +345,5 @@ def _compared(row: dict[str, str]) -> Printed:
     wanted = read_quantity(row["printed"], figure.kind)
     shown = float(from_si(found, unit or "dimensionless", figure.kind))
     texts = (f"{format_number(x, 5)} {pretty_unit(unit)}".strip() for x in (float(number), shown))
-    return Printed(f"{row['what']} ({row['source']})", *texts, found / wanted - 1)
+    what = row["what"] if current_language() == "en" else card.title
+    return Printed(f"{what} ({row['source']})", *texts, found / wanted - 1)

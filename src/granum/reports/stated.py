@@ -86,8 +86,12 @@ def in_french_print(text: str) -> str:
     return "".join([*found, _printed(text[at:])])
 
 
+_UNIT = r"(?:°C|%|[µcmk]?m[²³]?/?|[mkµ]?g|t/h|kPa|MPa|bar|kWh?|MJ|kJ|mL|L|tr/min|s|min|h)(?![\w²³])"
+_SPACES = re.compile(rf"(?<!\s) (?=[:;!?»](?:\s|$))|(?<=«) |(?<=\d) (?={_UNIT})")
+
+
 def _printed(text: str) -> str:
-    return re.sub(r"(?<!\s) (?=[:;!?»](?:\s|$))|(?<=«) ", "\u00a0", typographic(text))
+    return _SPACES.sub("\u00a0", typographic(text))
 
 
 def with_numbers(text: str) -> str:
