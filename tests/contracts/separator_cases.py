@@ -16,6 +16,8 @@ from granum.conveying.equipment.slurry import SlurryPipeline
 from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
 from granum.dust.equipment.bag_filter import BagFilter
+from granum.dust.equipment.hood import ExtractionHood
+from granum.dust.equipment.mesh_pad import MeshPad
 from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
 from granum.dust.equipment.settling_chamber import SettlingChamber
 from granum.fluidization.equipment.bed import FluidizedBed
@@ -108,6 +110,12 @@ def blown(x, mean, spread) -> dict[str, Stream]:
         "feed": solid.part((0.2 + 5.0 * x[1]) * share).replace(pressure=jnp.asarray(1.01325e5)),
         "gas": gas.replace(pressure=1.2e5 + 2e5 * x[3], temperature=300.0 + 40.0 * x[2]),
     }
+
+
+def hooded(x, mean, spread) -> dict[str, Stream]:
+    """Solid under a hood, and the air drawn off."""
+    made = dusty(x, mean, spread)
+    return {"feed": made.part(1.0, 0.0, 0.0), "air": made.part(0.0, 0.0, 1.0)}
 
 
 def bowl(a, b) -> tuple:
@@ -266,6 +274,18 @@ UNITS = {
         dusty,
         lambda f, a, b, c: SettlingChamber(
             2.0 + 10.0 * a, 1.0 + 3.0 * b, f.gas_volume_flow / (0.2 + 2.0 * c)
+        ),
+    ),
+    "mesh pad": (
+        dusty,
+        lambda f, a, b, c: MeshPad(
+            f.gas_volume_flow / (0.5 + 4.0 * a), 10.0 ** (-6.0 + 2.0 * b), 0.05 + 0.25 * c
+        ),
+    ),
+    "extraction hood": (
+        hooded,
+        lambda f, a, b, c: ExtractionHood(
+            f["air"].gas_volume_flow / (0.5 + 2.0 * a), 10.0 ** (-4.0 + 2.0 * b)
         ),
     ),
     "pneumatic conveyor": (

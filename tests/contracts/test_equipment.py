@@ -26,6 +26,8 @@ from granum.flowsheet.findings import CLOSURE, LEAST, findings
 
 STEP = 1e-5
 HUMID = {
+    "dust.packed_scrubber",
+    "dust.spray_tower",
     "dust.venturi_scrubber",
     "streams.adiabatic_humidifier",
     "streams.condenser_cooler",

@@ -35,6 +35,21 @@ def test_random_settings_close_with_dust(name: str) -> None:
     assert lost.mean() < 0.3
 
 
+def returning(x, product, more):
+    """The same spray dryer, with up to as much dry fines coming back as solid is fed."""
+    made = dusting("spray")(x, product, more)
+    feed = made.inlets["feed"]
+    back = feed.part(solid=x[15], liquid=x[15] * 0.2 * x[16]).replace(temperature=330.0)
+    return made._replace(inlets=made.inlets | {"fines": back})
+
+
+def test_random_settings_close_with_returned_fines() -> None:
+    lost, bad, rows = outcome("", returning, "surface", 100)
+    wrong = {what: rows[no.any(axis=1)] for what, no in bad.items() if no.any() and what != "saturation"}
+    assert not wrong, {what: len(found) for what, found in wrong.items()}
+    assert lost.mean() < 0.3
+
+
 @pytest.fixture(scope="module")
 def milk():
     return gr.read(EXAMPLES / "spray-drying" / "line.toml").solve()

@@ -52,7 +52,7 @@ def droplet_diameter_venturi(throat_velocity: Speed, liquid_to_gas: LiquidToGas)
 @formula(
     source="johnstone1954; theodore2012, p. 15.7",
     equation=r"\psi = \frac{C_c\,\rho_p\,d_p^2\,v}{9\,\eta\,d_c}",
-    typical={"gas_velocity": (1.0, 120.0), "collector_diameter": (3e-5, 2e-3), "slip_factor": (1.0, 3.0)},
+    typical={"gas_velocity": (1.0, 120.0), "obstacle_diameter": (3e-5, 2e-3), "slip_factor": (1.0, 3.0)},
     title="Inertial impaction number",
     symbols={"gas_velocity": "v"},
 )
@@ -61,7 +61,7 @@ def impaction_number(
     particle_density: Density,
     gas_velocity: Speed,
     dynamic_viscosity: DynamicViscosity,
-    collector_diameter: Length,
+    obstacle_diameter: Length,
     slip_factor: Annotated[PositiveNumber, Within(1.0, 1e4)] = 1.0,
 ) -> Ratio:
     """Stopping distance of a particle over the radius of the drop, wire or packing that catches it.
@@ -78,7 +78,7 @@ def impaction_number(
         * particle_density
         * particle_diameter**2
         * gas_velocity
-        / (9.0 * dynamic_viscosity * collector_diameter)
+        / (9.0 * dynamic_viscosity * obstacle_diameter)
     )
 
 
@@ -183,7 +183,7 @@ def grade_efficiency_spray_tower(
     drops in still gas. Drops that fall no faster than the gas rises are no rain, and there is no answer. The
     scrubber handbook was not opened; the relation follows from a balance over a slice.
 
-    By hand: 1 L/m³ of 1 mm drops over 5 m that fall four times as fast as the gas rises, all hit:
+    By hand: 1 L/m³ of 1 mm drops in a tower of 5 m that fall four times as fast as the gas rises, all hit:
     1 − exp(−1.5·0.001·5000·4/3).
 
     >>> round((1 - grade_efficiency_spray_tower(1.0, 1e-3, 5.0, 1e-3, 4.0, 1.0)) * 1e5, 2)
@@ -203,7 +203,7 @@ def grade_efficiency_spray_tower(
     typical={
         "impaction_number": (1e-3, 0.1),
         "height": (0.5, 5.0),
-        "collector_diameter": (0.01, 0.05),
+        "obstacle_diameter": (0.01, 0.05),
         "void_fraction": (0.6, 0.95),
         "liquid_holdup": (0.02, 0.1),
         "channel_ratio": (0.16, 0.19),
@@ -214,7 +214,7 @@ def grade_efficiency_spray_tower(
 def grade_efficiency_packed_scrubber(
     impaction_number: Ratio,
     height: Length,
-    collector_diameter: Length,
+    obstacle_diameter: Length,
     void_fraction: VoidFraction = 0.75,
     liquid_holdup: Fraction = 0.05,
     channel_ratio: Annotated[PositiveNumber, Within(0.01, 1.0)] = 0.165,
@@ -235,7 +235,7 @@ def grade_efficiency_packed_scrubber(
     impossible(~some, liquid_holdup, "liquid_holdup", 0.0, void_fraction, NO_ROOM)
     j = channel_ratio
     each = jnp.pi / (2.0 * (j + j**2) * jnp.where(some, free, 1.0))
-    return jnp.where(some, -jnp.expm1(-each * height / collector_diameter * impaction_number), jnp.nan)
+    return jnp.where(some, -jnp.expm1(-each * height / obstacle_diameter * impaction_number), jnp.nan)
 
 
 @formula(
@@ -278,6 +278,6 @@ def grade_efficiency_mesh(
     By hand: 360 m⁻¹, 15 cm, all that is in the way: 1 − exp(−11.46).
 
     >>> round((1 - grade_efficiency_mesh(1.0, 360.0, 0.15)) * 1e5, 2)
-    1.05
+    1.06
     """
     return -jnp.expm1(-2.0 / (3.0 * jnp.pi) * mesh_surface * thickness * target_efficiency)
