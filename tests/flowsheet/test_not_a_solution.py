@@ -6,8 +6,11 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import jax.numpy as jnp
+import numpy as np
 import pytest
 from tests.sharing.commands import granum
 from tests.sharing.streams import FEED, ONLY_WATER, loop
@@ -16,9 +19,11 @@ import granum as gr
 from granum.core import flags
 from granum.core.errors import ConvergenceError
 from granum.flowsheet import Flowsheet, ladder
+from granum.flowsheet.packing import _built
 from granum.flowsheet.run import Line
 from granum.flowsheet.specifications import design
 from granum.flowsheet.watching import Watch
+from granum.numerics import Anderson
 from granum.streams.equipment.basics import Heater, Mixer, Single, Splitter
 from granum.streams.stream import Stream, empty
 
@@ -254,6 +259,31 @@ def test_passes_in_parts_are_the_same_passes() -> None:
     assert float(parts.streams["mixed"].mass_flow) == pytest.approx(
         float(whole.solution.streams["mixed"].mass_flow), rel=1e-12
     )
+
+
+def test_the_speed_of_the_machine_does_not_change_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    def slow(_sheet: Any, _targets: Any, goal: Any, _known: Any) -> Any:
+        looks[-1].append(int(goal))
+        solution = SimpleNamespace(known=(0,), steps=(goal,), residual=(10.0 ** -float(goal),))
+        return SimpleNamespace(designed=SimpleNamespace(solution=solution, converged=False))
+
+    looks: list[list[int]] = []
+    for seconds in (1e-12, 1e12):  # as if every pass took ages, or nothing
+        monkeypatch.setattr(ladder, "PAUSE", seconds)
+        looks.append([])
+        ladder._in_passes(slow, Anderson(), loop(Heater(temperature=333.15)), (), 45, None)
+    assert looks[0] == looks[1] == [10, 20, 30, 40, 45]
+
+
+def test_where_the_exact_solver_begins_is_no_part_of_its_program() -> None:
+    sheet = loop(Heater(temperature=333.15))
+    method = ladder.EXACT["method"]
+    for temperature in (300.0, 310.0):
+        begin = ladder.beginning(sheet, ())
+        torn = {name: s.replace(temperature=np.float64(temperature)) for name, s in begin.torn.items()}
+        before = _built.cache_info().misses
+        ladder._in_passes(ladder._exactly, method, sheet, (), 3, None, begin._replace(torn=torn))
+    assert _built.cache_info().misses == before
 
 
 @pytest.mark.usefixtures("from_the_first_pass")

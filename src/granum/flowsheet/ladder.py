@@ -47,7 +47,7 @@ PATIENCE = 20
 FIRST = 10
 """Passes through the loops before anybody looks how far they are."""
 PAUSE = 1.0
-"""Seconds of passes between two looks."""
+"""Seconds of passes between two looks, where these change nothing."""
 
 
 class Beginning(NamedTuple):
@@ -177,6 +177,9 @@ def _in_passes(
     """
     known = nothing_known(sheet, method, among(sheet, targets), len(targets))
     loops = [block.tears[0] for block in sheet.blocks if block.tears]
+    # Anderson's method forgets at each look what it has come down to, and is judged there: by passes, so that
+    # it never depends on the speed of the machine what solves a line
+    by_passes = not targets and isinstance(method, Anderson)
     done, ahead, looks = 0, FIRST, []
     while True:
         goal, began = min(done + ahead, most), time.monotonic()
@@ -192,10 +195,11 @@ def _in_passes(
         if bool(found.designed.converged) or made < goal or goal >= most or stop:
             return found
         looks.append((made, max(left, default=0.0)))
-        if not targets and isinstance(method, Anderson) and _stagnates(looks):
+        if by_passes and _stagnates(looks):
             return found
         # the first look includes tracing and compiling, which say nothing of the passes
-        ahead = FIRST if done == 0 else max(1, min(int(PAUSE * (made - done) / spent), 10 * FIRST))
+        if done and not by_passes:
+            ahead = max(1, min(int(PAUSE * (made - done) / spent), 10 * FIRST))
         done, known = made, solution.known
 
 
