@@ -1,4 +1,4 @@
-"""What a line that is built on the page is asked for: figures of its streams, prices, names, more solids."""
+"""What a line built on the page is asked for: figures of its streams, prices, names, further solids."""
 
 from __future__ import annotations
 

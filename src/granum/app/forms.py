@@ -162,7 +162,10 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     within = interval(f"{asked.get('number', '')} {written}".strip()) if asked.get("interval") else None
     if within is not None:
         return _read_interval(within, p)
-    array = _converted(f"{asked.get('number', '')} {written}".strip(), p, bool(asked.get("several")))
+    text = f"{asked.get('number', '')} {written}".strip()
+    array = _converted(text, p, bool(asked.get("several")))
+    if array.size == 1 and (one := read_number(text)) is not None:
+        written = one[1]  # behind a power of ten: 1.2·10⁻³ Pa s
     unit = written or p.kind.unit
     if not _known(unit, p.kind):  # "2 mm, 850 um": each value keeps its own
         shown = display_unit(array, p.kind)

@@ -19,7 +19,7 @@ from granum.core.index import Entry, entries
 from granum.core.sources import authors_of
 from granum.core.words import root, tokens
 
-TITLE, NAME, SYMBOL, AUTHOR, GIVES, TEXT, DOMAIN = 10.0, 8.0, 7.5, 5.0, 4.0, 2.0, 1.5
+TITLE, CALLED, NAME, SYMBOL, AUTHOR, GIVES, TEXT, DOMAIN = 10.0, 9.0, 8.0, 7.5, 5.0, 4.0, 2.0, 1.5
 NAMES = SYMBOL  # a phrase of this weight or more is a name: the more of it was asked for, the better
 EXACT, BEGINS, ROOT, SLIP = 1.0, 0.8, 0.75, 0.55
 LEAST = 0.2  # of the score of the best: what fits worse is not told
@@ -213,7 +213,7 @@ def _said_of(entry: Entry) -> Iterable[tuple[float, str]]:
     yield TITLE, entry.french_title
     yield NAME, entry.name.replace("_", " ")
     for name in _synonyms()[1].get(entry.key, ()):
-        yield NAME, name
+        yield CALLED, name
     about = quantity_in(entry.name) or quantity_in(entry.family)
     if about:
         yield from _of_term(term(about), NAME)

@@ -6,8 +6,13 @@ export const joined = ({ number, unit }) => `${number} ${unit}`.trim();
 export const inLanguage = (text) =>
   settings.language === 'fr' && !text.includes(',') ? text.replaceAll(/\.(?=\d)/g, ',') : text;
 
+const RAISED = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+const raised = (power) =>
+  (power.startsWith('-') ? '⁻' : '') + [...power.replace(/\D/g, '')].map((digit) => RAISED[digit]).join('');
+/** A number as it is printed: 1.07 × 10⁸ for 1.07e8; it may be typed so as well. */
+const printed = (text) => text.replace(/(\d)e([-+]?\d+)/g, (_whole, last, power) => `${last} × 10${raised(power)}`);
 const NUMBER =
-  /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…)\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
+  /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…)\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+|\s*[×x·*]\s*10(?:\^?[-+−]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?:\/\d+(?![\d.,]))?/iy;
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
 
 /** Text such as "1 200,5 cm2" or "2 4 8 um" cut where the unit begins; what the number and the unit mean is for the server to say. */
@@ -162,10 +167,11 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
   };
   const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: u.label || '1' }));
   if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu });
+  const shown = p.series ? inLanguage(given.number) : printed(inLanguage(given.number));
   const wrong = reading?.problem || problem;
   const example = p.default_shown?.number ?? p.hint ?? (p.series ? (p.example?.number ?? '1 2 3') : '');
   return html`<div class="quantity"><div class="pairs"><input id=${id} type="text" inputmode="text" autocomplete="off" autocapitalize="off" spellcheck=${false} aria-label=${id ? null : label} aria-describedby=${note} aria-invalid=${wrong ? 'true' : 'false'}
-      value=${typed ?? inLanguage(given.number)} placeholder=${inLanguage(example)} onFocus=${() => {
+      value=${typed ?? shown} placeholder=${p.series ? inLanguage(example) : printed(inLanguage(example))} onFocus=${() => {
         focused.current = true;
       }} onBlur=${() => {
         focused.current = false;

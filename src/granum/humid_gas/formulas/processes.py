@@ -591,9 +591,6 @@ def combustion_gas(
     title="Drying slope from losses",
     symbols={
         "temperature_solid": "T_{s1}",
-        "specific_energy_solid": "q_s",
-        "specific_energy_loss": "q_{loss}",
-        "specific_energy_added": "q_{add}",
     },
 )
 def drying_slope(
