@@ -27,6 +27,7 @@ from granum.drying.equipment.silo import SiloDryer
 from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
+from granum.drying.equipment.web_ovens import ImpingementDryer, RadiantDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
 from granum.drying.gas_solid.kinetics import (
     DiffusionKinetics,
@@ -37,6 +38,7 @@ from granum.drying.gas_solid.kinetics import (
 )
 from granum.drying.isotherms.adsorption import Gab
 from granum.drying.isotherms.products import PRODUCTS
+from granum.drying.radiant_heat import DielectricField, InfraredEmitter
 from granum.drying.thin_layers.exponential import Page
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.equipment.humid_gas import (
@@ -311,6 +313,32 @@ def _paper(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
     )
 
 
+def _stenter(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
+    grammage, seconds = between(a, 0.02, 0.5), between(b, 0.5, 120.0)
+    return ImpingementDryer(
+        width=2.0,
+        length=d.feed.solid_flow / grammage / 2.0 * seconds,
+        dry_mass_per_area=grammage,
+        temperature_air=353.0 + 150.0 * c,
+        gas_velocity=5.0 + 50.0 * e,
+        diameter=0.002 + 0.01 * f,
+        nozzle_area_fraction=0.01 + 0.08 * g,
+        radiant_heat=DielectricField(2.7e7, 1e5 * f, 1e-3),
+    )
+
+
+def _infrared(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
+    grammage, seconds = between(a, 0.02, 1.0), between(b, 0.5, 200.0)
+    return RadiantDryer(
+        width=1.0,
+        length=d.feed.solid_flow / grammage * seconds,
+        dry_mass_per_area=grammage,
+        radiant_heat=InfraredEmitter(500.0 + 700.0 * c, view_factor=0.3 + 0.7 * e),
+        temperature_air=d.fresh.temperature + 60.0 * f,
+        heat_transfer_coefficient=5.0 + 50.0 * g,
+    )
+
+
 BY_BALANCE: dict[str, Callable[..., Setting]] = {
     "moisture": _by_balance(
         lambda d, a, b, c, e, f, g: ConvectiveDryer(
@@ -392,6 +420,8 @@ BY_BALANCE: dict[str, Callable[..., Setting]] = {
     "freeze": _by_balance(_freeze, POWDER),
     "freeze on trays": _by_balance(_trays, GRAIN),
     "paper": _by_balance(_paper, POWDER, fresh=True),
+    "stenter": _by_balance(_stenter, POWDER, fresh=True),
+    "infrared": _by_balance(_infrared, POWDER, fresh=True),
 }
 
 

@@ -165,7 +165,19 @@ def outcome(
 
 ALL = WITH_CELLS | BY_BALANCE | HUMID_GAS
 # those that compile within a second or three
-QUICK = ("drum", "freeze on trays", "paper", "tray", "heat pump", "humidifier", "coil", "two airs", "burner")
+QUICK = (
+    "drum",
+    "freeze on trays",
+    "paper",
+    "stenter",
+    "infrared",
+    "tray",
+    "heat pump",
+    "humidifier",
+    "coil",
+    "two airs",
+    "burner",
+)
 CASES = [
     (name, product)
     for name in (ALL if SAMPLES else QUICK)

@@ -129,6 +129,13 @@ from granum.drying.equipment.tray import (
 from granum.drying.equipment.tunnel import (
     TunnelDryer as TunnelDryer,
 )
+from granum.drying.equipment.web_ovens import (
+    AbstractWebOven as AbstractWebOven,
+    ImpingementDryer as ImpingementDryer,
+    RadiantDryer as RadiantDryer,
+    WebDried as WebDried,
+    WebFigures as WebFigures,
+)
 from granum.drying.equipment.well_mixed import (
     WellMixedDryer as WellMixedDryer,
     WellMixedFigures as WellMixedFigures,
@@ -205,6 +212,9 @@ from granum.drying.formulas.heat import (
     nusselt_number_impinging as nusselt_number_impinging,
     penetration_depth as penetration_depth,
     saturation_share as saturation_share,
+)
+from granum.drying.formulas.impingement import (
+    nusselt_number_impinging_slots as nusselt_number_impinging_slots,
 )
 from granum.drying.formulas.moisture import (
     SorptionHeat as SorptionHeat,
@@ -369,6 +379,11 @@ from granum.drying.lab_tests.thin_layer import (
 )
 from granum.drying.profile_charts import (
     drying_profile_chart as drying_profile_chart,
+)
+from granum.drying.radiant_heat import (
+    AbstractRadiantHeat as AbstractRadiantHeat,
+    DielectricField as DielectricField,
+    InfraredEmitter as InfraredEmitter,
 )
 from granum.drying.selection import (
     Dryers as Dryers,

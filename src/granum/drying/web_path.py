@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 
 from granum.drying.isotherms.base import AbstractIsotherm
+from granum.numerics import find_root
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 
@@ -44,14 +45,14 @@ class Air(NamedTuple):
 class Phase(NamedTuple):
     """A stretch of the way: a hot surface on one side (temperature, coefficient as a function of moisture),
     and the coefficients of heat and of vapor transfer (as heat) summed over the sides open to the gas; heat
-    that the web absorbs besides, W/m².
+    that the web absorbs besides, W/m², as a function of moisture and temperature.
     """
 
     hot: Any
     contact: Callable[[Any], Any]
     exchange: Any
     evaporation: Any
-    absorbed: Any = 0.0
+    absorbed: Callable[[Any, Any], Any] | None = None
 
 
 class Web(NamedTuple):
@@ -72,15 +73,17 @@ class Web(NamedTuple):
         return phase.evaporation * air.vapor_per_heat * jnp.maximum(stefan, 0.0)
 
     def slopes(self, state: tuple[Any, Any], phase: Phase, air: Air) -> tuple[Any, Any, Any]:
-        """Rates of moisture, temperature, and heat taken from the hot surface."""
+        """Rates of moisture, temperature, and heat taken from the hot surface and absorbed."""
         X, T = state
         flux = self.flux(X, T, phase, air)
-        contact = phase.contact(jnp.maximum(X, 0.0)) * (phase.hot - T)
-        heat = contact + phase.exchange * (air.temperature - T) + phase.absorbed
+        given = phase.contact(jnp.maximum(X, 0.0)) * (phase.hot - T)
+        if phase.absorbed is not None:
+            given = given + phase.absorbed(jnp.maximum(X, 0.0), T)
+        heat = given + phase.exchange * (air.temperature - T)
         sorbed = jnp.maximum(self.isotherm.net_isosteric_heat(jnp.maximum(X, 1e-6), T), 0.0)
         latent = self.humid.heat_of_vaporization(T) + sorbed
         capacity = self.dry_mass * (self.solid_capacity + jnp.maximum(X, 0.0) * self.liquid_capacity)
-        return -flux / self.dry_mass, (heat - flux * latent) / capacity, contact
+        return -flux / self.dry_mass, (heat - flux * latent) / capacity, given
 
     def step(self, state: tuple[Any, Any], h: Any, phase: Phase, air: Air) -> tuple[Any, Any, Any]:
         """One step of Rosenbrock's method of second order, and the heat from the hot surface, J/m²."""
@@ -124,6 +127,21 @@ class Web(NamedTuple):
             jnp.asarray(state[1], dtype=float),
         )
         return jax.lax.scan(one, first, None, length=steps)[0]
+
+
+def no_contact(X: Any) -> Any:
+    """The coefficient of a hot surface where there is none."""
+    return 0.0 * X
+
+
+def in_its_own_vapor(X1: Any, run: Callable[[Any], tuple[Any, Any]]) -> tuple[Any, Any, Any]:
+    """Moisture reached, whatever else ``run`` tells, and whether it was found, of a web whose gas is as humid
+    as it makes it itself; ``run`` is told the share of the feed's liquid that the gas carries away.
+    """
+    root = find_root(lambda share: X1 - run(share)[0] - share * X1, 0.0, 1.0, start=0.8, tolerance=1e-10)
+    some = X1 > 1e-9
+    X2, more = run(jnp.where(some, root.value, 0.0))
+    return jnp.minimum(X2, X1), more, root.converged | ~some
 
 
 def web_of(feed: Stream, dry_mass: Any, isotherm: AbstractIsotherm, humid: HumidMixture) -> Web:

@@ -38,7 +38,7 @@ from granum.drying.formulas.heat import heat_transfer_coefficient_series
 from granum.drying.formulas.paper import evaporation_per_area_tappi, heat_transfer_coefficient_paper
 from granum.drying.gas_solid.dryer import ready
 from granum.drying.isotherms.paper import Heikkila
-from granum.drying.web_path import Air, Phase, web_of
+from granum.drying.web_path import Air, Phase, in_its_own_vapor, no_contact, web_of
 from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
@@ -252,16 +252,17 @@ def _solved(machine: PaperMachine, feed: Stream, gas: Stream) -> dict[str, Any]:
 
     felt = machine.felt_factor * h
 
-    def passage(evaporated: Any) -> CylinderPassage:
-        """The web when so much vapor has gone to the hood, kg/s."""
-        hood = gas.replace(gas=gas.gas.at[humid.vapor].add(evaporated), temperature=machine.temperature_air)
+    def passage(share: Any) -> tuple[Any, CylinderPassage]:
+        """The web when this share of its water has gone to the hood."""
+        vapor = gas.gas.at[humid.vapor].add(share * feed.liquid[0])
+        hood = gas.replace(gas=vapor, temperature=machine.temperature_air)
         air = Air.of(hood, humid)
 
         def cylinder(carry: tuple[Any, ...], hot: Any) -> tuple[tuple[Any, ...], tuple[Any, Any]]:
             X, T, q, top, drawn = carry
             on = Phase(hot, contact, felt, felt)
             X, T, heat, most = web.along((X, T), around / still, on, air, ON_CYLINDER)
-            free = Phase(hot, lambda X: 0.0 * X, 2.0 * h, 2.0 * h)
+            free = Phase(hot, no_contact, 2.0 * h, 2.0 * h)
             X2, T, _none, more = web.along((X, T), machine.draw_length / still, free, air, IN_DRAW)
             top = jnp.maximum(top, jnp.maximum(most, more))
             return (X2, T, q + heat, top, drawn + X - X2), (X2, T)
@@ -275,26 +276,18 @@ def _solved(machine: PaperMachine, feed: Stream, gas: Stream) -> dict[str, Any]:
         )
         start = tuple(jnp.asarray(v, dtype=float) for v in start)
         (_X, _T, q, top, drawn), (X, T) = jax.lax.scan(cylinder, start, steam)
-        return CylinderPassage(X, T, q, top, drawn)
+        return X[-1], CylinderPassage(X, T, q, top, drawn)
 
-    most = feed.liquid[0]
-
-    def excess(share: Any) -> Any:
-        return X1 - passage(share * most).moisture[-1] - share * X1
-
-    root = find_root(excess, 0.0, 1.0, start=0.8, tolerance=1e-10)
-    some = X1 > 1e-9
-    share = jnp.where(some, root.value, 0.0)
-    made = passage(share * most)
+    X2, made, converged = in_its_own_vapor(X1, passage)
     return {
         "passage": made,
-        "X2": jnp.minimum(made.moisture[-1], X1),
+        "X2": X2,
         "T2": made.temperature[-1],
         "speed": speed,
         "time": machine.cylinder_count * (around + machine.draw_length) / still,
         "area_rate": area_rate,
         "steam": last,
-        "converged": root.converged | ~some,
+        "converged": converged,
     }
 
 
