@@ -37,6 +37,7 @@ QUICK = (
     "ultrafiltration",
     "osmosis",
     "flotation",
+    "belt press",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

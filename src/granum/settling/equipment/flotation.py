@@ -120,9 +120,7 @@ class DissolvedAirFlotation(Unit):
         "thicker": Limit("feed thinner than the skimmings", 0.0, 1.0, "dimensionless", "metcalf2003, § 5-8"),
     }
     utilities: ClassVar[Utilities] = (
-        PUMPED
-        | AREA
-        | {"electric_power_compressor": Utility(SOURCE), "electric_power_scraper": Utility(SOURCE)}
+        PUMPED | AREA | {"electric_power_compressor": Utility(SOURCE), "electric_power_rake": Utility(SOURCE)}
     )
 
     def inside(self, feed: Stream) -> Whitened:
@@ -213,6 +211,6 @@ class DissolvedAirFlotation(Unit):
         return {
             "electric_power_pump": driven(outlets.shaft_power),
             "electric_power_compressor": compressed(lost, self.pressure_saturator),
-            "electric_power_scraper": driven(jnp.asarray(self.scraper_power)),
+            "electric_power_rake": driven(jnp.asarray(self.scraper_power)),
             "area_installed": self.area,
         }
