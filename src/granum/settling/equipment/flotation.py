@@ -60,7 +60,7 @@ class FlotationFigures(NamedTuple):
     removal_efficiency: Fraction
     recycle_flow: VolumeFlow
     air_released: Concentration
-    bubble_fraction: VolumeFraction
+    bubble_volume_fraction: VolumeFraction
     air_to_solids_ratio: Ratio
     air_flow: MassFlow
     overflow_concentration: Concentration
@@ -85,7 +85,8 @@ class Whitened(NamedTuple):
     title="Dissolved-air flotation",
     equation=(
         r"\frac{A}{S} = \frac{r\,\left[f\,C(p_s) - C(p_0)\right]}{C_0},\qquad "
-        r"X = \left(1 - e^{-3\,\alpha\,\eta\,\delta\,u_b\,t_R/2d_b}\right)\min\left(1, \frac{v}{v_0}\right)"
+        r"X = \left(1 - e^{-3\,\alpha\,\eta\,\varphi_b\,u_b\,t_R/2d_b}\right)"
+        r"\min\left(1, \frac{v}{v_0}\right)"
     ),
 )
 class DissolvedAirFlotation(Unit):

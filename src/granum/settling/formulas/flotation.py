@@ -153,13 +153,13 @@ def collector_efficiency_bubble(
 
 @formula(
     source="edzwald2010, eq. 4",
-    equation=r"E = 1 - \exp\left(-\frac{3\,\alpha\,\eta\,\delta\,u_b\,t_R}{2\,d_b}\right)",
+    equation=r"E = 1 - \exp\left(-\frac{3\,\alpha\,\eta\,\varphi_b\,u_b\,t_R}{2\,d_b}\right)",
     title="Share of particles that meet a bubble",
     output="removal_efficiency",
     typical={
         "collector_efficiency": (0.01, 1.0),
         "attachment_efficiency": (0.1, 1.0),
-        "bubble_fraction": (2e-3, 1e-2),
+        "bubble_volume_fraction": (2e-3, 1e-2),
         "bubble_rise_velocity": (1e-3, 3e-3),
         "contact_time": (60.0, 180.0),
         "bubble_diameter": (4e-5, 8e-5),
@@ -168,7 +168,7 @@ def collector_efficiency_bubble(
 def removal_efficiency_contact(
     collector_efficiency: PositiveNumber,
     attachment_efficiency: Fraction,
-    bubble_fraction: VolumeFraction,
+    bubble_volume_fraction: VolumeFraction,
     bubble_rise_velocity: Speed,
     contact_time: Time,
     bubble_diameter: Length,
@@ -182,5 +182,5 @@ def removal_efficiency_contact(
     >>> round(removal_efficiency_contact(0.1, 0.5, 0.005, "2 mm/s", 90.0, "60 um"), 3)
     0.675
     """
-    load = 1.5 * attachment_efficiency * collector_efficiency * bubble_fraction / bubble_diameter
+    load = 1.5 * attachment_efficiency * collector_efficiency * bubble_volume_fraction / bubble_diameter
     return -jnp.expm1(-load * bubble_rise_velocity * contact_time)
