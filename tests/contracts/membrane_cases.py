@@ -1,4 +1,4 @@
-"""Membrane plants and flotation with ordinary waters and settings, to be tried by the contracts."""
+"""Membrane plants, flotation and belt press with ordinary waters, to be tried by the contracts."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from tests.contracts.unit_search import Case, shares
 
+from granum.filtration.equipment.belt_press import BeltPress
 from granum.filtration.equipment.membranes import ReverseOsmosis, Ultrafiltration
 from granum.settling.equipment.flotation import DissolvedAirFlotation
 from granum.streams.from_materials import mixture_of
@@ -42,6 +43,17 @@ def _flocs(mixture: Mixture, x: Any) -> dict[str, Stream]:
     return {"feed": empty(mixture, 278.0 + 30.0 * x[3]).replace(solid=solid * both, liquid=water[None])}
 
 
+def _sludge(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of sludge of 0.5 to 8 %, and spray water."""
+    flow, share = 10.0 ** (-1.0 + 2.0 * x[0]), 10.0 ** (-2.3 + 1.2 * x[1])
+    sizes = shares(x[4], x[5], len(mixture.sizes))
+    both = jnp.stack([(1.0 - x[2]) * sizes, x[2] * sizes])
+    feed = empty(mixture, 278.0 + 30.0 * x[3]).replace(
+        solid=flow * share * both, liquid=flow * (1.0 - share) * jnp.ones(1)
+    )
+    return {"feed": feed, "wash": empty(mixture, 285.0).replace(liquid=flow * x[6] * jnp.ones(1))}
+
+
 def membranes(classes: int) -> dict[str, Case]:
     """One case of each, its area in proportion to its feed."""
     whey = mixture_of(["water", "sucrose"], ["whey protein"], [], np.geomspace(2e-9, 2e-8, classes + 1))
@@ -60,6 +72,21 @@ def membranes(classes: int) -> dict[str, Case]:
                 pressure_saturator=2.5e5 + 5e5 * u[3],
                 attachment_efficiency=u[4],
                 floc_water_ratio=30.0 * u[5],
+            ),
+        ),
+        "belt press": Case(
+            flocs,
+            _sludge,
+            lambda f, u: BeltPress(
+                0.5 + 2.5 * u[0],
+                0.02 + 0.15 * u[1],
+                2e3 + 1e4 * u[2],
+                10.0 ** (8.0 + 3.0 * u[3]),
+                0.03 + 0.1 * u[4],
+                0.15 + 0.25 * u[5],
+                10.0 ** (-10.0 + 3.0 * u[0]),
+                compaction_exponent=0.3 * u[1],
+                solids_recovery=0.8 + 0.2 * u[2],
             ),
         ),
         "ultrafiltration": Case(

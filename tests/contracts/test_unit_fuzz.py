@@ -40,6 +40,7 @@ QUICK = (
     "osmosis",
     "layers",
     "flotation",
+    "belt press",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

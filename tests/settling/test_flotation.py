@@ -49,7 +49,7 @@ def flotation(**inputs: object):
 def test_white_water_of_waterworks() -> None:
     """Edzwald 2010 (from memory): 8 to 12 % of recycle at 4 to 6 bar give 5 to 9 mL of bubbles per liter."""
     run = flotation(recycle_ratio="10 %")
-    assert 5e-3 < run.figure("dissolved_air_flotation.bubble_fraction") < 9e-3
+    assert 5e-3 < run.figure("dissolved_air_flotation.bubble_volume_fraction") < 9e-3
 
 
 def test_more_air_more_time_and_more_area_float_more() -> None:

@@ -15,6 +15,12 @@ from granum.filtration.equipment.batch import (
     Press as Press,
     PressureLeafFilter as PressureLeafFilter,
 )
+from granum.filtration.equipment.belt_press import (
+    BeltPress as BeltPress,
+    Course as Course,
+    PressFigures as PressFigures,
+    Pressed as Pressed,
+)
 from granum.filtration.equipment.cake_filter import (
     CakeFigures as CakeFigures,
     CakeFilter as CakeFilter,
@@ -104,6 +110,10 @@ from granum.filtration.formulas.gas_filters import (
     penetration_fibers as penetration_fibers,
     pressure_drop_dust_cake as pressure_drop_dust_cake,
     pressure_drop_fibers as pressure_drop_fibers,
+)
+from granum.filtration.formulas.gravity import (
+    filtrate_depth_falling_head as filtrate_depth_falling_head,
+    filtration_time_falling_head as filtration_time_falling_head,
 )
 from granum.filtration.formulas.mass_balance import (
     cake_thickness as cake_thickness,

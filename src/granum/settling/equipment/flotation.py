@@ -60,7 +60,7 @@ class FlotationFigures(NamedTuple):
     removal_efficiency: Fraction
     recycle_flow: VolumeFlow
     air_released: Concentration
-    bubble_fraction: VolumeFraction
+    bubble_volume_fraction: VolumeFraction
     air_to_solids_ratio: Ratio
     air_flow: MassFlow
     overflow_concentration: Concentration
@@ -85,7 +85,8 @@ class Whitened(NamedTuple):
     title="Dissolved-air flotation",
     equation=(
         r"\frac{A}{S} = \frac{r\,\left[f\,C(p_s) - C(p_0)\right]}{C_0},\qquad "
-        r"X = \left(1 - e^{-3\,\alpha\,\eta\,\delta\,u_b\,t_R/2d_b}\right)\min\left(1, \frac{v}{v_0}\right)"
+        r"X = \left(1 - e^{-3\,\alpha\,\eta\,\varphi_b\,u_b\,t_R/2d_b}\right)"
+        r"\min\left(1, \frac{v}{v_0}\right)"
     ),
 )
 class DissolvedAirFlotation(Unit):
@@ -120,9 +121,7 @@ class DissolvedAirFlotation(Unit):
         "thicker": Limit("feed thinner than the skimmings", 0.0, 1.0, "dimensionless", "metcalf2003, § 5-8"),
     }
     utilities: ClassVar[Utilities] = (
-        PUMPED
-        | AREA
-        | {"electric_power_compressor": Utility(SOURCE), "electric_power_scraper": Utility(SOURCE)}
+        PUMPED | AREA | {"electric_power_compressor": Utility(SOURCE), "electric_power_rake": Utility(SOURCE)}
     )
 
     def inside(self, feed: Stream) -> Whitened:
@@ -213,6 +212,6 @@ class DissolvedAirFlotation(Unit):
         return {
             "electric_power_pump": driven(outlets.shaft_power),
             "electric_power_compressor": compressed(lost, self.pressure_saturator),
-            "electric_power_scraper": driven(jnp.asarray(self.scraper_power)),
+            "electric_power_rake": driven(jnp.asarray(self.scraper_power)),
             "area_installed": self.area,
         }

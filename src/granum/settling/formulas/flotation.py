@@ -55,7 +55,7 @@ def air_solubility(
     Metcalf and Eddy have 18.7 mL/L at 20 °C, which are 22.5 to 24.3 g/m³ by the density that is taken.
 
     >>> round(1e3 * air_solubility("20 degC"), 1)
-    24.4
+    24.8
     """
     inverse = 1.0 / jnp.asarray(temperature) - 1.0 / REFERENCE
     return pressure * sum(y * M * H * jnp.exp(a * inverse) for y, M, H, a in GASES)
@@ -81,10 +81,10 @@ def air_released(
     """Air that comes out as bubbles, per volume of feed and recycle, when water from a saturator is let down
     to the atmosphere; the feed is taken as saturated with air itself.
 
-    By hand at 20 °C: a tenth of recycle from 5 atm at 80 % lets go 24.4 · (4 − 1)/11.
+    By hand at 20 °C: a tenth of recycle from 5 atm at 80 % lets go 24.8 · (4 − 1)/11.
 
     >>> round(1e3 * air_released("5 atm", recycle_ratio=0.1), 1)
-    6.6
+    6.8
     """
     open_ = air_solubility(temperature, STANDARD_ATMOSPHERE)
     held = saturator_efficiency * air_solubility(temperature, pressure_saturator)
@@ -153,13 +153,13 @@ def collector_efficiency_bubble(
 
 @formula(
     source="edzwald2010, eq. 4",
-    equation=r"E = 1 - \exp\left(-\frac{3\,\alpha\,\eta\,\delta\,u_b\,t_R}{2\,d_b}\right)",
+    equation=r"E = 1 - \exp\left(-\frac{3\,\alpha\,\eta\,\varphi_b\,u_b\,t_R}{2\,d_b}\right)",
     title="Share of particles that meet a bubble",
     output="removal_efficiency",
     typical={
         "collector_efficiency": (0.01, 1.0),
         "attachment_efficiency": (0.1, 1.0),
-        "bubble_fraction": (2e-3, 1e-2),
+        "bubble_volume_fraction": (2e-3, 1e-2),
         "bubble_rise_velocity": (1e-3, 3e-3),
         "contact_time": (60.0, 180.0),
         "bubble_diameter": (4e-5, 8e-5),
@@ -168,7 +168,7 @@ def collector_efficiency_bubble(
 def removal_efficiency_contact(
     collector_efficiency: PositiveNumber,
     attachment_efficiency: Fraction,
-    bubble_fraction: VolumeFraction,
+    bubble_volume_fraction: VolumeFraction,
     bubble_rise_velocity: Speed,
     contact_time: Time,
     bubble_diameter: Length,
@@ -182,5 +182,5 @@ def removal_efficiency_contact(
     >>> round(removal_efficiency_contact(0.1, 0.5, 0.005, "2 mm/s", 90.0, "60 um"), 3)
     0.675
     """
-    load = 1.5 * attachment_efficiency * collector_efficiency * bubble_fraction / bubble_diameter
+    load = 1.5 * attachment_efficiency * collector_efficiency * bubble_volume_fraction / bubble_diameter
     return -jnp.expm1(-load * bubble_rise_velocity * contact_time)
