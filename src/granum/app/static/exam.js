@@ -1,5 +1,18 @@
 // An exam: exercises drawn from a number, the same for all who type it; no hints and no marks before it is handed in, and a clock if wanted.
-import { html, t, ask, link, download, useAnswer, useEffect, useKept, useRef, useState, settings, Working } from './core.js';
+import {
+  html,
+  t,
+  ask,
+  link,
+  download,
+  useAnswer,
+  useEffect,
+  useKept,
+  useRef,
+  useState,
+  settings,
+  Working,
+} from './core.js';
 import { Quantity } from './quantity.js';
 import { Choices } from './exercise_step.js';
 import { Indexed } from './indices.js';
@@ -10,7 +23,7 @@ const whole = (text, most) => (/^\d{1,6}$/.test(text || '') && Number(text) <= m
 
 /** Numbers between 0 and 1 that follow from a seed (mulberry32). */
 function* chances(seed) {
-  for (let state = seed >>> 0; ; ) {
+  for (let state = seed >>> 0; ;) {
     state = (state + 0x6d2b79f5) >>> 0;
     let mixed = Math.imul(state ^ (state >>> 15), state | 1);
     mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
@@ -76,7 +89,9 @@ function Sitting({ name, seed, held, minutes }) {
   const { data, error, pending, cancel, job } = useAnswer(
     (signal) =>
       Promise.all(
-        held.map((e) => ask(`/api/exercises/${encodeURIComponent(e.id)}?seed=${seed}`, undefined, { signal })),
+        held.map((e) =>
+          ask(`/api/exercises/${encodeURIComponent(e.id)}?seed=${seed}`, undefined, { signal }),
+        ),
       ),
     [name, settings.language, settings.units],
     0,
@@ -104,7 +119,7 @@ function Sitting({ name, seed, held, minutes }) {
     ${
       over &&
       html`<div class="card" role="status" data-score=${`${right}/${steps.length}`}><p class="result"><strong>${t('{score} of {count} right', { score: right, count: steps.length })}</strong></p>
-      <p class="small dim">${t('Handed in after {minutes} minutes.', { minutes: Math.max(1, Math.round((kept.ended - kept.began) / 60000)) })}</p>
+      <p class="small dim">${t('Handed in after {minutes} min.', { minutes: Math.max(1, Math.round((kept.ended - kept.began) / 60000)) })}</p>
       <div class="row"><button class="button" onClick=${() => saved(seed, steps, kept)}>${t('Result as CSV')}</button> <a href=${link('exercises', 'exam')}>${t('Another exam')}</a></div></div>`
     }
     ${data?.map((exercise, e) => html`<article class="paper"><h2>${e + 1}. ${exercise.title}</h2><p class="statement"><${Indexed} text=${exercise.statement} /></p><ol class="steps">${exercise.steps.map((step, place) => html`<${Asked} key=${place} name=${exercise.id} place=${place} step=${step} text=${kept.answers[`${exercise.id} ${place}`] ?? ''} mark=${kept.marks?.[`${exercise.id} ${place}`]} over=${over} onChange=${(text) => put({ ...state.current, answers: { ...state.current.answers, [`${exercise.id} ${place}`]: text } })} />`)}</ol></article>`)}
@@ -161,7 +176,9 @@ function saved(seed, steps, { answers, marks }) {
   const cell = (text) => `"${String(text ?? '').replaceAll('"', '""')}"`;
   const rows = steps.map((key) => {
     const [exercise, place] = key.split(' ');
-    return [exercise, Number(place) + 1, cell(answers[key]), marks[key].verdict, cell(marks[key].right)].join(',');
+    return [exercise, Number(place) + 1, cell(answers[key]), marks[key].verdict, cell(marks[key].right)].join(
+      ',',
+    );
   });
   download(
     `granum-exam-${seed}.csv`,

@@ -93,7 +93,11 @@ function Sheet({ name }) {
     setProblem('');
     try {
       const path = `/api/exercises/${encodeURIComponent(name)}/sheet?first=${span.first}&last=${span.last}`;
-      download(`${name}-${span.first}-${span.last}.csv`, await ask(path, undefined, { text: true }), 'text/csv');
+      download(
+        `${name}-${span.first}-${span.last}.csv`,
+        await ask(path, undefined, { text: true }),
+        'text/csv',
+      );
     } catch (fault) {
       setProblem(fault.message);
     }

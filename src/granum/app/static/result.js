@@ -14,7 +14,9 @@ export function Result({ card, values, data, old, kept, keep, clear, choose, law
   const [saving, setSaving] = useState(false);
   const save = async () => {
     setSaving(true);
-    await sheet({ ...choice, unit: units[choice.output || card.outputs[0]?.name] || '' }).finally(() => setSaving(false));
+    await sheet({ ...choice, unit: units[choice.output || card.outputs[0]?.name] || '' }).finally(() =>
+      setSaving(false),
+    );
   };
   const within = (row) => data.intervals?.[row.name];
   const value = (row) =>
