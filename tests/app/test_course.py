@@ -4,16 +4,26 @@ with their reasons, the sheet for the teacher, the exam.
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 from typing import Any
 
 import numpy as np
 import pytest
+from selenium.webdriver.common.keys import Keys
+from tests.app.browsing import Page
+from typer.testing import CliRunner
 
 from granum.app import exercises
+from granum.app.exercises.answers import answers, sheet
 from granum.app.exercises.marking import marked
 from granum.app.exercises.numbers import Numbers
+from granum.app.finding import found
+from granum.app.forms import card_form
+from granum.cli import app
 from granum.core import registry
+from granum.core.errors import InputError
 from granum.core.i18n import language
 
 ALL = exercises.declared()["exercise"]
@@ -31,8 +41,8 @@ def test_every_student_gets_numbers_of_ordinary_size(exercise: dict[str, Any]) -
         for place, step in enumerate(exercise["steps"]):
             if "choices" in step:
                 continue
-            found = registry.find(step["card"]).evaluate(**numbers.inputs(place))
-            assert not np.any(found.flags) or (exercise["id"], seed) in MEANT, (seed, place, found.notices)
+            result = registry.find(step["card"]).evaluate(**numbers.inputs(place))
+            assert not np.any(result.flags) or (exercise["id"], seed) in MEANT, (seed, place, result.notices)
             value = numbers.calculated(place)
             if seed is None:
                 first[place] = value
@@ -92,13 +102,170 @@ WORKED = {  # printed answers of the notes' ten worked exercises, as many as eac
 
 @pytest.mark.parametrize("name", WORKED)
 def test_each_worked_exercise_of_the_notes_is_there_and_met_or_named_as_erratum(name: str) -> None:
-    found, met = exercises.exercise(name), 0
-    for place, step in enumerate(found["steps"]):
+    worked, met = exercises.exercise(name), 0
+    for place, step in enumerate(worked["steps"]):
         asked = step.get("expected", {})
         if "value" in asked:
-            calculated = Numbers(found).calculated(place)
+            calculated = Numbers(worked).calculated(place)
             assert calculated == pytest.approx(asked["value"], abs=asked["within"]), step["ask"]["en"]
         if "misprint" in asked:
             assert step["erratum"]["fr"]
         met += "value" in asked or "misprint" in asked
     assert met == WORKED[name]
+
+
+def test_the_sheet_of_a_class_holds_numbers_and_answers() -> None:
+    rows = list(csv.reader(io.StringIO(sheet("falling-crystal", 3, 5))))
+    assert [row[0] for row in rows] == ["seed", "3", "4", "5"]
+    assert rows[0][1] == "diameter (µm)"
+    for row in rows[1:]:
+        micrometers, density, centipoise, stokes = map(float, row[1:5])
+        by_hand = 9.80665 * (density - 1020.0) * (micrometers * 1e-6) ** 2 / (18.0 * centipoise * 1e-3)
+        assert stokes == pytest.approx(1e3 * by_hand, rel=1e-4)
+    with language("fr"):
+        assert sheet("six-means", 1, 1).splitlines()[1].endswith(exercises_answer("six-means", 1, 6))
+    with pytest.raises(InputError, match="same numbers"):
+        sheet("two-airs", 1, 3)
+    with pytest.raises(InputError, match="at most 1000"):
+        sheet("six-means", 1, 2000)
+    with pytest.raises(InputError, match="at most"):
+        sheet("six-means", 9, 2)
+
+
+def exercises_answer(name: str, seed: int, place: int) -> str:
+    """What is right at a step, as CSV writes it."""
+    text = answers(name, seed)[place]["text"]
+    return f'"{text}"' if "," in text else text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ([], "99 exercises"),
+        (["svedberg", "--seed", "4", "--answers"], "Runs at rising speed"),
+        (["svedberg", "--seeds", "1-2"], "seed,diameter (nm)"),
+        (["svedberg", "--json"], '"steps"'),
+    ],
+)
+def test_the_command_line_tells_the_course(arguments: list[str], told: str) -> None:
+    outcome = CliRunner().invoke(app, ["exercises", *arguments])
+    assert outcome.exit_code == 0, outcome.output
+    assert told in outcome.output
+
+
+@pytest.mark.parametrize(
+    ("asked", "exercise"),
+    [
+        ("essorage", "basket-flow"),
+        ("essoreuse", "which-basket"),
+        ("porosité", "buchner-to-filter"),
+        ("voidage", "buchner-to-filter"),
+        ("SVI", "sludge-index"),
+        ("Richardson-Zaki", "crowded-fall"),
+        ("Kynch", "kynch-tangent"),
+        ("bulbe humide", "wet-wick"),
+        ("Sauter", "six-means"),
+    ],
+)
+def test_the_search_finds_exercises_by_the_words_of_the_field(asked: str, exercise: str) -> None:
+    assert exercise in [hit["key"] for hit in found(asked, 24) if hit["sort"] == "exercise"]
+
+
+def test_a_card_names_its_exercises_in_the_language_of_the_page() -> None:
+    with language("fr"):
+        told = card_form("settling.sludge_volume_index")["exercises"]
+    assert {"id": "sludge-index", "title": "La boue décante-t-elle ?"} in [
+        {"id": e["id"], "title": e["title"].replace("\u202f", " ").replace("\u00a0", " ")} for e in told
+    ]
+    assert card_form("porous.permeability_davies")["exercises"] == []
+
+
+@pytest.mark.parametrize(
+    ("code", "wrong", "why", "right"),
+    [
+        ("en", "It falls to nothing", "carried away", "It stays: the bed weighs the same"),
+        ("fr", "Elle tombe à zéro", "emporté", "Elle reste"),
+    ],
+)
+def test_a_student_chooses(page: Page, code: str, wrong: str, why: str, right: str) -> None:
+    page.open("exercises/bed-wakes-up", code)
+    step = "[data-step='4']"
+    page.one(f"{step} input[type=radio]")
+    choose(page, step, wrong)
+    page.one(f"{step} button.main").click()
+    page.one(f"{step} [data-verdict=wrong]")
+    assert why in page.one(f"{step} [data-verdict]").text
+    choose(page, step, right)
+    page.one(f"{step} button.main").click()
+    page.one(f"{step} [data-verdict=right]")
+    page.check()
+
+
+def choose(page: Page, place: str, text: str) -> None:
+    """Walk the choices with the arrow keys to the one that begins with a text."""
+    rows = page.all(f"{place} .pick")
+    told = [row.text.replace("\u202f", " ").replace("\u00a0", " ") for row in rows]
+    wanted = next(i for i, row in enumerate(told) if row.startswith(text))
+    buttons = page.all(f"{place} input[type=radio]")
+    buttons[0].send_keys(Keys.SPACE)
+    for button in buttons[:wanted]:
+        button.send_keys(Keys.ARROW_DOWN)
+    page.until(lambda: page.all(f"{place} input[type=radio]")[wanted].is_selected())
+
+
+def test_a_step_shows_its_chart(page: Page) -> None:
+    page.open("exercises/first-moments", width=390, theme="dark")
+    next(b for b in page.all("[data-step='0'] button") if b.text == "Show the answer").click()
+    page.one("[data-step='0'] [data-output=terminal_velocity]")
+    page.button("Show the chart").click()
+    page.one("[data-sensitivity] .plot svg")
+    page.settle()
+    page.check()
+
+
+@pytest.mark.parametrize(
+    ("code", "begin", "hand_in", "score"),
+    [("en", "Begin", "Hand in", "1 of"), ("fr", "Commencer", "Remettre", "1 justes sur")],
+)
+def test_an_exam_is_marked_when_it_is_handed_in(
+    page: Page, code: str, begin: str, hand_in: str, score: str
+) -> None:
+    page.open("exercises/exam", code)
+    page.type("input[name=seed]", "77")
+    page.type("input[name=count]", "1")
+    page.type("input[name=minutes]", "45")
+    page.check()
+    page.button(begin).click()
+    field = page.one(".paper [data-step='0'] .quantity input")
+    name = page.one(".paper [data-step='0']").get_attribute("data-exercise")
+    assert "44:" in page.one("[role=timer]").text or "45:00" in page.one("[role=timer]").text
+    assert not page.all("[data-hint]")
+    assert not page.all("[data-verdict]")
+    right = f"{answers(name, 77)[0]['value']:.5g}"
+    typed = right.replace(".", ",") if code == "fr" else right
+    for key in typed:
+        field.send_keys(key)
+    page.check()
+    page.button(hand_in).click()
+    assert page.one("[data-score]").get_attribute("data-score").startswith("1/")
+    assert score in page.one("[data-score]").text
+    assert page.one("[data-step='0'] [data-verdict=right]")
+    assert page.all("[data-verdict=wrong]")
+    page.check()
+    page.browser.refresh()
+    page.settle()
+    assert page.one("[data-score]"), "what was handed in stays so"
+
+
+def test_the_sections_of_the_notes_lead_to_exercises(page: Page) -> None:
+    page.open("exercises/sections", "fr", width=390)
+    assert len(page.all("table.sections tr")) == 272
+    page.check()
+
+
+def test_a_card_leads_to_its_exercises(page: Page) -> None:
+    page.open("calculate/settling.sludge_volume_index")
+    page.one("[data-exercises] a").click()
+    page.one(".statement")
+    assert "sludge" in page.browser.current_url or "settling" in page.browser.current_url
+    page.check()

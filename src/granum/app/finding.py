@@ -10,7 +10,7 @@ from granum.app.reading import page
 from granum.app.shipped import description_of, examples, pages, title_of
 from granum.core.i18n import LANGUAGES, current_language, language
 from granum.core.index import entries
-from granum.core.search import NAME, TEXT, TITLE, Document, Finder, card_documents, document
+from granum.core.search import DOMAIN, GIVES, NAME, TEXT, TITLE, Document, Finder, card_documents, document
 
 SHOWN = 40  # hits
 BEHIND = 0.9  # what is not a card itself
@@ -31,7 +31,25 @@ def _exercises() -> Iterator[Document]:
         said = [(TITLE, text) for text in one["title"].values()]
         said += [(NAME, text) for step in one["steps"] for text in step["ask"].values()]
         said += [(TEXT, text) for text in one["statement"].values()]
+        said += [(GIVES, text) for step in one["steps"] if "card" in step for text in _named(step["card"])]
+        said += [(DOMAIN, text) for text in _domain(one["domain"])]
         yield document("exercise", one["id"], said, BEHIND)
+
+
+def _named(key: str) -> tuple[str, str, str]:
+    """What the card of a step is called."""
+    card = entries()[key]
+    return card.english_title or card.title, card.french_title, card.name.replace("_", " ")
+
+
+@cache
+def _domain(name: str) -> tuple[str, ...]:
+    """What a domain of the course is called, in every language."""
+    found = []
+    for code in LANGUAGES:
+        with language(code):
+            found.append(exercises.domain_labels()[name])
+    return tuple(found)
 
 
 def _pages(code: str) -> Iterator[Document]:

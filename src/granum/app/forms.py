@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from granum.app.exercises import with_card
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.conversion import convert
@@ -52,6 +53,7 @@ def card_form(key: str) -> dict[str, Any]:
     card = whole(registry.find(key).card)
     asked = registry.find(key).card.arguments
     data: dict[str, Any] = card.as_json() | {"equation_shown": equation_lines(card.equation)}
+    data["exercises"] = with_card(key)
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     data["fluid"] = fluid_field(card)
     examples = opening_values(card)

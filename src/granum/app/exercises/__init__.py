@@ -77,6 +77,7 @@ def listing() -> dict[str, Any]:
     labels = domain_labels()
     rows = [
         in_language({"id": e["id"], "title": e["title"], "domain": e["domain"], "steps": len(e["steps"])})
+        | {"fresh": bool(e.get("draws"))}
         for e in sorted(declared()["exercise"], key=_place)
     ]
     domains = [
@@ -97,7 +98,7 @@ def _place(one: dict[str, Any]) -> int:
 
 
 def _sections(notes: dict[str, Any]) -> list[dict[str, Any]]:
-    """The sections of one of the notes, each with its exercises; ``quizzes`` where a question belongs to it."""
+    """The sections of one of the notes, each with its exercises, and whether it has ``quizzes``."""
     of: dict[str, list[str]] = {}
     for one in declared()["exercise"]:
         for section in one["sections"]:
@@ -108,6 +109,12 @@ def _sections(notes: dict[str, Any]) -> list[dict[str, Any]]:
         {"number": number, "exercises": of.get(place, []), "quizzes": place in asked}
         for number, place in places
     ]
+
+
+def with_card(key: str) -> list[dict[str, str]]:
+    """The exercises that use a card: ``{"id", "title"}`` in the current language, in their order."""
+    found = [e for e in declared()["exercise"] if any(step.get("card") == key for step in e["steps"])]
+    return [in_language({"id": e["id"], "title": e["title"]}) for e in sorted(found, key=_place)]
 
 
 def worked(name: str, seed: int | None = None) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 // The right column: what came out and whether to believe it.
-import { html, t, settings, useState, useKept } from './core.js';
+import { html, t, link, settings, useState, useKept } from './core.js';
 import { Sensitivity } from './sensitivity.js';
 import { Series } from './series.js';
 import { Spread } from './spread.js';
@@ -14,7 +14,9 @@ export function Result({ card, values, data, old, kept, keep, clear, choose, law
   const [saving, setSaving] = useState(false);
   const save = async () => {
     setSaving(true);
-    await sheet({ ...choice, unit: units[choice.output || card.outputs[0]?.name] || '' }).finally(() => setSaving(false));
+    await sheet({ ...choice, unit: units[choice.output || card.outputs[0]?.name] || '' }).finally(() =>
+      setSaving(false),
+    );
   };
   const within = (row) => data.intervals?.[row.name];
   const value = (row) =>
@@ -39,6 +41,7 @@ export function Result({ card, values, data, old, kept, keep, clear, choose, law
     ${data.equation_numbers && html`<div class="equation" tabindex="0" role="region" aria-label=${t('Equation with numbers')} data-numbers dangerouslySetInnerHTML=${{ __html: data.equation_numbers }} />`}
     ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? (settings.language === 'fr' ? ' ; ' : '; ') : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
     <h2>${t('Source')}</h2><p class="small">${data.citation}</p>
+    ${card.exercises?.length > 0 && html`<h2>${t('Exercises with this')}</h2><ul class="plain small" data-exercises>${card.exercises.map((e) => html`<li><a href=${link('exercises', e.id)}>${e.title}</a></li>`)}</ul>`}
     <details><summary>${t('The same in Python')}</summary><pre>${data.python}</pre></details>
     <details><summary>${t('The same on the command line')}</summary><pre>${data.command}</pre></details>
     <details><summary>${t('About')}</summary><pre lang="en">${card.doc}</pre></details>`;
