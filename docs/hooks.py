@@ -230,8 +230,8 @@ SAID_OF_PRINTED = {
 
 
 def _rounded_up(percent: float) -> float:
-    """To one digit, not below a hundredth."""
-    step = 10.0 ** math.floor(math.log10(max(percent, 0.01)))
+    """To two digits, not below a hundredth."""
+    step = max(0.01, 10.0 ** (math.floor(math.log10(max(percent, 0.01))) - 1))
     return math.ceil(round(max(percent, 0.01) / step, 6)) * step
 
 

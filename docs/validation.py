@@ -244,37 +244,6 @@ def fluidization_curve() -> Shown:
     )
 
 
-def comminution_energy() -> Shown:
-    """Bond's law with two printed mills on it."""
-    figure = charts.figure(
-        charts.axis_title("product_size", "um"), "specific energy / kWh/t", x_log=True, y_log=True
-    )
-    mills = [
-        row
-        for row in _rows("comminution")
-        if row["card"] == "comminution.specific_energy_bond" and row.get("what")
-    ]
-    for row, color in zip(mills, charts.LINES, strict=False):
-        card = registry.find(row["card"])
-        given = card.evaluate(**_inputs(row)).inputs
-        feed, product = given["feed_size"], given["product_size"]
-        sizes = np.geomspace(product / 3, feed / 1.5, 50)
-        energy = np.asarray(card(**given | {"product_size": sizes})) / 3600
-        charts.add_line(figure, sizes * 1e6, energy, row["what"], color=color)
-        charts.add_points(
-            figure,
-            [product * 1e6],
-            [float(row["printed"].split()[0])],
-            "printed",
-            color=color,
-            showlegend=False,
-        )
-    return Shown(
-        figure,
-        "Bond's law for the rod mill and the ball mill of Rowland and Kjos; points are the printed energies.",
-    )
-
-
 FIGURES = {
     f.__name__: f
     for f in (
@@ -289,7 +258,6 @@ FIGURES = {
         materials_solubility,
         materials_water,
         fluidization_curve,
-        comminution_energy,
     )
 }
 

@@ -138,10 +138,12 @@ wanted = FLOW / loading
 used = {name: wanted / (real[name] * s) for name, s in sigma.items()}
 doubtful = FLOW / (15e-6 / 300 / float(spin)) / (real["decanter"] * sigma["decanter"])  # after five
 
+# ---- sludge
 # sludge of half solids by volume, from feeds of 5 % and 0.1 % of solids, in a bowl that holds 5 L of it
 interval = {share: float(ce.discharge_interval("5 L", FLOW * share / 0.5)) for share in (0.05, 0.001)}
 
 
+# ---- figures
 def figure_grade():
     drawing = figure(axis_title("particle_diameter", "um"), axis_title("grade_efficiency", "%"), x_log=True)
     sizes = np.geomspace(0.2e-6, 5e-6, 80)
