@@ -146,10 +146,11 @@ def values_at(
     takes arrays, else one by one while that is quick.
     """
     if takes_arrays(thing):
-        found = thing.evaluate(**{**given, name: x})
-        y = np.asarray(found.outputs[output], dtype=float)
-        bits = np.broadcast_to(found.flags, x.shape)
-        return np.broadcast_to(y, x.shape), (bits & EXTRAPOLATED) == 0
+        with contextlib.suppress(TypeError):  # a card with points of its own takes one at a time
+            found = thing.evaluate(**{**given, name: x})
+            y = np.asarray(found.outputs[output], dtype=float)
+            bits = np.broadcast_to(found.flags, x.shape)
+            return np.broadcast_to(y, x.shape), (bits & EXTRAPOLATED) == 0
     y, trusted = np.full(x.shape, np.nan), np.zeros(x.shape, dtype=bool)
     start = time.perf_counter()
     for i, value in enumerate(x):
