@@ -36,6 +36,7 @@ QUICK = (
     "train",
     "drowned",
     "layers",
+    "salt pair",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)
