@@ -5,14 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 import jax.numpy as jnp
+import numpy as np
 from tests.contracts.unit_cases import crystallizers
 from tests.contracts.unit_search import Case, shares
 
 from granum.crystallization.equipment.antisolvent import AntisolventCrystallizer
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
+from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
+from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
@@ -54,6 +57,19 @@ def _melt(mixture: Mixture, x: Any) -> dict[str, Stream]:
     }
 
 
+def _chlorides(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with up to 7 mol/kg of each chloride, crystals and vapor."""
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    crystals = jnp.stack([0.2 * x[3] * shares(x[4], x[5], classes), 0.2 * x[7] * shares(x[5], x[4], classes)])
+    return {
+        "feed": empty(mixture, 290.0 + 70.0 * x[2]).replace(
+            solid=water * crystals,
+            liquid=water * jnp.stack([1.0, 0.4 * x[1], 0.5 * x[6]]),
+            gas=1e-4 * water * jnp.stack([x[7]]),
+        )
+    }
+
+
 def mixed(classes: int) -> dict[str, Case]:
     nitrate = crystallizers(classes)["msmpr"].mixture
     return {
@@ -85,6 +101,23 @@ def mixed(classes: int) -> dict[str, Case]:
                 sweated_fraction=0.2 * u[4],
                 impurity_fraction_eutectic=0.3 + 0.6 * u[5],
                 pure_liquid="water",
+            ),
+        ),
+        "salt pair": Case(
+            mixture_of(
+                ["water", "sodium chloride", "potassium chloride"],
+                ["sodium chloride", "potassium chloride"],
+                ["water"],
+                np.geomspace(1e-5, 4e-3, classes + 1),
+            ),
+            _chlorides,
+            lambda f, u: TwoSaltCrystallizer(
+                280.0 + 90.0 * u[0],
+                f["feed"].slurry_volume_flow * 10.0 ** (2.5 + 1.5 * u[1]),
+                evaporation=0.6 * u[2] * f["feed"].liquid[0],
+                crystal_size=1e-4 + 5e-4 * u[3],
+                first_salt="sodium chloride",
+                second_salt="potassium chloride",
             ),
         ),
     }

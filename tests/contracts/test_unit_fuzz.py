@@ -41,6 +41,7 @@ QUICK = (
     "layers",
     "flotation",
     "belt press",
+    "salt pair",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

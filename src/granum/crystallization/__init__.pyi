@@ -10,6 +10,9 @@ from granum.crystallization.charts_melt import (
     layer_purity_chart as layer_purity_chart,
     zone_refining_chart as zone_refining_chart,
 )
+from granum.crystallization.charts_salts import (
+    two_salts_chart as two_salts_chart,
+)
 from granum.crystallization.charts_solutions import (
     antisolvent_chart as antisolvent_chart,
     polymorph_chart as polymorph_chart,
@@ -55,6 +58,11 @@ from granum.crystallization.equipment.msmpr import (
 )
 from granum.crystallization.equipment.roles import (
     Roles as Roles,
+)
+from granum.crystallization.equipment.two_salts import (
+    Parted as Parted,
+    TwoSaltCrystallizer as TwoSaltCrystallizer,
+    TwoSaltFigures as TwoSaltFigures,
 )
 from granum.crystallization.formulas.agglomeration import (
     AgglomerationKernel as AgglomerationKernel,
@@ -286,6 +294,11 @@ from granum.crystallization.vessels.batch import (
     BatchCourse as BatchCourse,
     agglomerating_batch as agglomerating_batch,
     batch as batch,
+)
+from granum.crystallization.vessels.common_ion import (
+    InvariantPoint as InvariantPoint,
+    Isotherm as Isotherm,
+    invariant_point as invariant_point,
 )
 from granum.crystallization.vessels.crystals import (
     Crystal as Crystal,

@@ -5,6 +5,10 @@ from granum.materials.activities import (
     NoActivity as NoActivity,
     SucroseActivity as SucroseActivity,
 )
+from granum.materials.common_ion import (
+    CommonIon as CommonIon,
+    Mixing as Mixing,
+)
 from granum.materials.correlation import (
     Correlation as Correlation,
     Missing as Missing,
@@ -20,6 +24,9 @@ from granum.materials.formulas.activity import (
     osmotic_coefficient_pitzer as osmotic_coefficient_pitzer,
     water_activity_osmotic as water_activity_osmotic,
     water_activity_starzak_peacock as water_activity_starzak_peacock,
+)
+from granum.materials.formulas.common_ion import (
+    Binary as Binary,
 )
 from granum.materials.formulas.correlations import (
     correlation_aly_lee as correlation_aly_lee,

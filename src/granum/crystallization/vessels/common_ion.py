@@ -1,0 +1,83 @@
+"""Two salts with a common ion: where both are saturated, and the isotherm between the salts alone."""
+
+from __future__ import annotations
+
+from typing import Annotated, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import procedure
+from granum.core.kinds import MassFraction, Molality, Pressure, Series, Temperature, WaterActivity
+from granum.materials.common_ion import CommonIon, common_ion
+from granum.materials.library import session
+
+POINTS = 25
+
+
+class InvariantPoint(NamedTuple):
+    """A solution saturated with both salts."""
+
+    molality_first: Molality
+    molality_second: Molality
+    solute_mass_fraction_first: MassFraction
+    solute_mass_fraction_second: MassFraction
+    molality_first_alone: Molality
+    molality_second_alone: Molality
+    water_activity: WaterActivity
+    pressure: Pressure
+
+
+class Isotherm(NamedTuple):
+    """Saturated solutions from one salt alone over the invariant point to the other, as mass fractions."""
+
+    first: Annotated[MassFraction, Series("points")]
+    second: Annotated[MassFraction, Series("points")]
+    corner: int
+
+
+def fractions(pair: CommonIon, first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Mass fractions of both salts from their molalities."""
+    a, b = (np.asarray(m) * M for m, M in zip((first, second), pair.molar_masses, strict=True))
+    return a / (1.0 + a + b), b / (1.0 + a + b)
+
+
+def isotherm(pair: CommonIon, temperature: float) -> Isotherm:
+    """The two saturation lines at a temperature."""
+    one, other = (float(m) for m in pair.invariant(temperature))
+    beside_second = np.linspace(0.0, other, POINTS)
+    beside_first = np.linspace(one, 0.0, POINTS)
+    first = np.asarray(jax.vmap(lambda m: pair.room(temperature, 0, m))(jnp.asarray(beside_second)))
+    second = np.asarray(jax.vmap(lambda m: pair.room(temperature, 1, m))(jnp.asarray(beside_first)))
+    x, y = fractions(pair, np.append(first, beside_first), np.append(beside_second, second))
+    return Isotherm(x, y, POINTS - 1)
+
+
+@procedure(
+    source="greenberg1989; mullin2001, ch. 4",
+    title="Invariant point of two salts with a common ion",
+    typical={"temperature": (273.15, 373.15)},
+)
+def invariant_point(
+    temperature: Temperature, first_salt: str = "sodium chloride", second_salt: str = "potassium chloride"
+) -> InvariantPoint:
+    """Solution that is saturated with two salts at once: molalities, mass fractions, water activity and the
+    pressure of water over it.
+
+    Each salt alone dissolves as in the library; what they do to each other follows from Pitzer's equations.
+    On evaporation every solution of the two ends here. Sodium and potassium chloride.
+
+    >>> out = invariant_point(temperature="25 degC")
+    >>> round(100 * out.solute_mass_fraction_first, 1)
+    20.8
+    """
+    pair = common_ion(first_salt, second_salt)
+    one, other = (float(m) for m in pair.invariant(temperature))
+    x, y = fractions(pair, np.asarray(one), np.asarray(other))
+    alone = pair.alone(temperature)
+    activity = float(pair.water_activity(temperature, one, other))
+    water = session().fluid("water").vapor_pressure.value(jnp.asarray(temperature, dtype=float))
+    return InvariantPoint(
+        one, other, float(x), float(y), float(alone[0]), float(alone[1]), activity, activity * float(water)
+    )
