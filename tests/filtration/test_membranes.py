@@ -30,7 +30,7 @@ def test_osmotic_pressure_of_the_library() -> None:
 
 
 def test_sizes_of_molecules() -> None:
-    """Erickson 2009, table 1: least radii of proteins."""
+    """Erickson 2009, table 1 (from memory): least radii of proteins."""
     for mass, radius in ((10.0, 1.42), (20.0, 1.78), (100.0, 3.05), (500.0, 5.21)):
         assert gr.filtration.molecule_diameter(mass) == pytest.approx(2e-9 * radius, rel=1e-2)
     pore = gr.filtration.pore_diameter_cut_off(30.0)
@@ -154,8 +154,8 @@ def test_more_pressure_rejects_more_salt() -> None:
 
 
 def test_energy_of_seawater_with_recovery_of_pressure() -> None:
-    """Plants with pressure exchangers take 2 to 4 kWh/m³ (Elimelech and Phillip 2011: 3 to 4 with all
-    pre-treatment); without, several times that of the membrane work.
+    """Plants with pressure exchangers take 2 to 4 kWh/m³ (Elimelech and Phillip 2011, from memory: 3 to 4
+    with all pre-treatment); without, several times that of the membrane work.
     """
     with_it = plant("reverse_osmosis").figure("reverse_osmosis.energy_per_filtrate") / 3.6e6
     without = (

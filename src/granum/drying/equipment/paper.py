@@ -109,6 +109,7 @@ class PaperMachine(Unit):
     speed follows from the flow of dry fibers, grammage and width. Steam gets evenly hotter from
     ``pressure_steam_first`` (where it is not given, the same as the last) to ``pressure_steam``.
     ``heat_loss_share`` is of the heat of steam. The drives of the cylinders are not in the electric power.
+    Limits recalled, not opened.
     """
 
     width: Length

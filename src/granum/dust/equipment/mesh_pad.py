@@ -75,6 +75,7 @@ class MeshPad(Collector):
 
     Too fast gas tears drops off the pad again, too slow gas carries them around the wires: the load factor
     says so. Dust that does not dissolve plugs a pad. The drained liquid has the temperature of the gas.
+    Limits recalled, not opened.
     """
 
     area: Area

@@ -82,7 +82,7 @@ class SprayTower(ScrubbingTower):
 
     Drops fall at their terminal velocity from top to bottom, none along the walls. Where the gas rises as
     fast as they fall, it would take them along: the check fails, and what is caught is that of gas a little
-    slower. The ends of the tower cost three velocity heads, our own estimate.
+    slower. The ends of the tower cost three velocity heads, our own estimate. Limits recalled, not opened.
     """
 
     droplet_diameter: Length = 1e-3
@@ -140,7 +140,7 @@ class PackedScrubber(ScrubbingTower):
     water that trickles down.
 
     Good for dust of some micrometers that does not cake: more of it plugs a packing. The pressure gradient is
-    that of the wet packing, 200 to 400 Pa/m as usually run.
+    that of the wet packing, 200 to 400 Pa/m as usually run. Limits recalled, not opened.
     """
 
     packing_diameter: Length = 0.025

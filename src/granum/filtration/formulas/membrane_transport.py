@@ -100,8 +100,8 @@ def molecule_diameter(molar_mass: MolarMass, partial_specific_volume: VolumePerM
     """Diameter of the smallest sphere that holds a molecule of a molar mass, its volume that of a protein.
 
     Stretched and swollen molecules are larger. Lighter molecules are no proteins, though the size of sugars
-    comes out near that by diffusion (sucrose 0.92 nm). Erickson's table 1 has a radius of 2.4 nm for 50
-    kg/mol.
+    comes out near that by diffusion (sucrose 0.92 nm). Erickson's table 1 (recalled, not opened) has a radius
+    of 2.4 nm for 50 kg/mol.
 
     >>> round(molecule_diameter(molar_mass=50.0) * 1e9 / 2, 1)
     2.4

@@ -24,7 +24,7 @@ from granum.core.kinds import (
 )
 
 REFERENCE = 298.15
-# share in dry air, kg/mol, mol/(m³ Pa) at 25 °C, K: Sander's recommended values
+# share in dry air, kg/mol, mol/(m³ Pa) at 25 °C, K: Sander's recommended values, recalled, not opened
 GASES = (
     (0.2095, 0.031998, 1.2e-5, 1700.0),
     (0.7808, 0.028014, 6.4e-6, 1300.0),
@@ -52,7 +52,8 @@ def air_solubility(
     argon.
 
     In a saturator that is not vented nitrogen gathers in the gas and the water holds up to a tenth less.
-    Metcalf and Eddy have 18.7 mL/L at 20 °C, which are 22.5 to 24.3 g/m³ by the density that is taken.
+    Constants recalled, not opened. Metcalf and Eddy have 18.7 mL/L at 20 °C (recalled), which are 22.5 to
+    24.3 g/m³ by the density that is taken.
 
     >>> round(1e3 * air_solubility("20 degC"), 1)
     24.8
