@@ -24,9 +24,10 @@ def dusting(name: str):
     return build
 
 
-@pytest.mark.parametrize(
-    "name", ["spray", "long bed", "flash", "rotary counter-current", "rotary co-current", "silo"]
-)
+OTHERS = ("long bed", "flash", "rotary counter-current", "rotary co-current", "silo")
+
+
+@pytest.mark.parametrize("name", ["spray", *(pytest.param(n, marks=pytest.mark.long) for n in OTHERS)])
 def test_random_settings_close_with_dust(name: str) -> None:
     lost, bad, rows = outcome("", dusting(name), "surface", 100)
     unasked = {"saturation"} | ({"drier than equilibrium"} if name == "flash" else set())  # all of it flies
@@ -43,6 +44,7 @@ def returning(x, product, more):
     return made._replace(inlets=made.inlets | {"fines": back})
 
 
+@pytest.mark.long
 def test_random_settings_close_with_returned_fines() -> None:
     lost, bad, rows = outcome("", returning, "surface", 100)
     wrong = {what: rows[no.any(axis=1)] for what, no in bad.items() if no.any() and what != "saturation"}
