@@ -41,7 +41,7 @@ WORDS = {
         "search": "Chercher un appareil",
         "solid": "Nitrate de potassium",
         "crystallizer": "cristallisoir continu parfaitement",
-        "filter": "filtre à bande",
+        "filter": "filtre à bande horizontale",
         "dryer": "séchoir parfaitement mélangé",
         "names": ("solution", "cristallisoir", "filtre", "séchoir", "purge"),
         "undo": "Annuler",

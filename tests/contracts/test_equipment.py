@@ -16,7 +16,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from tests.contracts import crystallizer_cases, evaporator_cases, separator_cases, unit_cases
+from tests.contracts import crystallizer_cases, evaporator_cases, membrane_cases, separator_cases, unit_cases
 from tests.contracts.unit_search import FEED, OWN, QUICK, THERE, Case, present, rows
 from tests.sharing.samples import SAMPLES
 
@@ -61,6 +61,7 @@ GROUPS = (
     unit_cases.basics,
     unit_cases.crystallizers,
     evaporator_cases.evaporators,
+    membrane_cases.membranes,
     crystallizer_cases.mixed,
 )
 

@@ -31,6 +31,7 @@ from granum.core.kinds import (
     Temperature,
     ThermalConductivity,
     Time,
+    Within,
 )
 from granum.core.limits import Limit
 from granum.core.units import format_number
@@ -115,7 +116,7 @@ class PaperMachine(Unit):
     width: Length
     dry_mass_per_area: MassPerArea
     pressure_steam: Pressure
-    cylinder_count: int = 40
+    cylinder_count: Annotated[int, Within(1, 200)] = 40
     diameter: Length = 1.5
     pressure_steam_first: Pressure | None = None
     temperature_air: Temperature = 358.15
