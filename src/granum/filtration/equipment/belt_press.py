@@ -114,7 +114,7 @@ class BeltPress(Unit):
     gravity_length: Length = 3.0
     wedge_length: Length = 1.0
     wedge_pressure: PressureDrop = 5e3
-    roller_count: int = eqx.field(static=True, default=8)
+    roller_count: Annotated[int, Within(1, 50)] = eqx.field(static=True, default=8)
     roller_diameter_first: Length = 0.6
     roller_diameter_last: Length = 0.2
     wrap_angle: Angle = 2.8
