@@ -14,6 +14,8 @@ from granum.core.search import Finder, document, search
 from granum.core.words import root, tokens
 
 MEANT = {
+    # the name of a domain
+    "conveying": "conveying.slurry_pipeline|conveying.pneumatic_conveyor",
     # words in use, where the title says something else
     "settling speed": "particles.terminal_velocity",
     "how fast does it settle": "particles.terminal_velocity",

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import runpy
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.core.errors import InputError
@@ -129,6 +131,10 @@ def test_random_batches_conserve_and_stay_possible(seed):
         # no step overshoots the solubility of the stable form by dissolving or growing
         assert (np.asarray(out.solute_per_solvent)[1:] > 0.0119).all()
         assert (np.asarray(out.solute_per_solvent)[1:] < 0.0321).all()
+
+
+def test_the_example_transforms() -> None:
+    runpy.run_path(str(EXAMPLES / "polymorph" / "polymorph.py"))
 
 
 def test_narrow_packets_lose_no_crystals_to_rounding():

@@ -256,10 +256,17 @@ def _cards() -> Finder:
 
 
 def search(text: str, limit: int | None = None) -> list[Entry]:
-    """The cards that a text means, the best first.
+    """The cards that a text means, the best first; all those of a domain before others where it is named.
 
     >>> search("terminal velcity", limit=1)[0].key
     'particles.terminal_velocity'
     """
     known: dict[str, Any] = entries()
-    return [known[hit.key] for hit in _cards().search(text, limit)]
+    found = [known[hit.key] for hit in _cards().search(text)]
+    named = "_".join(text.lower().split())
+    own = [entry for entry in known.values() if entry.domain == named]
+    if own:
+        place = {entry.key: number for number, entry in enumerate(found)}
+        own.sort(key=lambda entry: place.get(entry.key, len(found)))
+        found = own + [entry for entry in found if entry.domain != named]
+    return found[:limit]

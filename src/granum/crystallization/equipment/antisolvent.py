@@ -28,10 +28,9 @@ from granum.core.kinds import (
     Time,
     Volume,
 )
-from granum.core.limits import Limit
 from granum.crystallization.equipment.batch import BatchOutlets
+from granum.crystallization.equipment.msmpr import STEADY
 from granum.crystallization.equipment.roles import (
-    LARGEST,
     Roles,
     crystal_of,
     feed_of,
@@ -134,16 +133,7 @@ class AntisolventCrystallizer(Unit):
     solvent: str = eqx.field(kw_only=True, static=True, default="")
     second_solvent: str = eqx.field(kw_only=True, static=True, default="")
 
-    limits: ClassVar[Limits] = {
-        "crowded": Limit(
-            "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
-        ),
-        "time": Limit("residence time", 600.0, 36000.0, "s", "mullin2001, ch. 9"),
-        "present": Limit(
-            "steady crystals (1 when present)", 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"
-        ),
-        "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
-    }
+    limits: ClassVar[Limits] = STEADY
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 

@@ -68,6 +68,14 @@ class CrystallizerFigures(NamedTuple):
     heat_duty: Power
 
 
+STEADY: Limits = {
+    "crowded": Limit("solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
+    "time": Limit("residence time", 600.0, 36000.0, "s", "mullin2001, ch. 9"),
+    "present": Limit("steady crystals (1 when present)", 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"),
+    "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
+}
+
+
 class _Continuous(Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
@@ -81,15 +89,7 @@ class _Continuous(Unit):
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
-    limits: ClassVar[Limits] = {
-        "crowded": Limit(
-            "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
-        ),
-        "time": Limit("residence time", 600.0, 36000.0, "s", "mullin2001, ch. 9"),
-        "present": Limit(
-            "steady crystals (1 when present)", 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"
-        ),
-        "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
+    limits: ClassVar[Limits] = STEADY | {
         "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
     }
 
