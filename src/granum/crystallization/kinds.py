@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from granum.core.kinds import GrowthRate, Kind, Law, MassFraction, MolarEnergy, PositiveNumber, Within
+from granum.core.kinds import GrowthRate, Kind, Law, MassFraction, MolarEnergy, PositiveNumber, Volume, Within
 
+VesselVolume = Annotated[Volume, Within(1e-6)]  # a milliliter: nothing crystallizes in none
 PositiveTemperatureDifference = Annotated[
     Any,
     Kind(

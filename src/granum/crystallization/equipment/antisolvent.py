@@ -26,7 +26,6 @@ from granum.core.kinds import (
     Power,
     Temperature,
     Time,
-    Volume,
 )
 from granum.crystallization.equipment.batch import BatchOutlets
 from granum.crystallization.equipment.msmpr import STEADY
@@ -37,7 +36,7 @@ from granum.crystallization.equipment.roles import (
     roles,
     with_crystals,
 )
-from granum.crystallization.kinds import Growth, Nucleation, Solubility
+from granum.crystallization.kinds import Growth, Nucleation, Solubility, VesselVolume
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Feed, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.mixture import Mixture
@@ -123,7 +122,7 @@ class AntisolventCrystallizer(Unit):
     """
 
     temperature: Temperature
-    volume: Volume
+    volume: VesselVolume
     solubility: Solubility
     growth: Growth
     nucleation: Nucleation

@@ -45,7 +45,7 @@ from granum.crystallization.equipment.roles import (
     with_crystals,
 )
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
-from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility
+from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, VesselVolume
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Seeds
@@ -336,7 +336,7 @@ class JacketedBatchCrystallizer(_Cycled):
     """
 
     jacket_program: Program
-    volume: Volume
+    volume: VesselVolume
     area: Area
     heat_transfer_coefficient: HeatTransferCoefficient
     heat_transfer_coefficient_inside: HeatTransferCoefficient = 1000.0
@@ -465,7 +465,7 @@ class PlugFlowCrystallizer(_Batch):
     """
 
     temperature_program: Program
-    volume: Volume
+    volume: VesselVolume
 
     utilities: ClassVar[Utilities] = HEATED | COOLED
 

@@ -25,7 +25,6 @@ from granum.core.kinds import (
     Power,
     Temperature,
     Time,
-    Volume,
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.in_time import Crystallized, InTime
@@ -39,7 +38,7 @@ from granum.crystallization.equipment.roles import (
     roles,
     with_crystals,
 )
-from granum.crystallization.kinds import Growth, Nucleation, Solubility
+from granum.crystallization.kinds import Growth, Nucleation, Solubility, VesselVolume
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, median_of
@@ -80,7 +79,7 @@ class _Continuous(Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
     temperature: Temperature
-    volume: Volume
+    volume: VesselVolume
     solubility: Solubility
     growth: Growth
     nucleation: Nucleation

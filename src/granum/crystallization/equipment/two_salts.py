@@ -20,12 +20,12 @@ from granum.core.kinds import (
     Pressure,
     Temperature,
     Time,
-    Volume,
     WaterActivity,
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.in_time import Crystallized
 from granum.crystallization.equipment.roles import given_off, refuse_boiling, roles, with_crystals
+from granum.crystallization.kinds import VesselVolume
 from granum.materials.common_ion import CommonIon, common_ion
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
@@ -100,7 +100,7 @@ class TwoSaltCrystallizer(Unit):
     """
 
     temperature: Temperature
-    volume: Volume
+    volume: VesselVolume
     evaporation: MassFlow = eqx.field(kw_only=True, default=0.0)
     crystal_size: Length = eqx.field(kw_only=True, default=400e-6)
     geometric_standard_deviation: PositiveNumber = eqx.field(kw_only=True, default=1.6)
