@@ -236,8 +236,8 @@ def test_an_exam_is_marked_when_it_is_handed_in(
     page.type("input[name=minutes]", "45")
     page.check()
     page.button(begin).click()
-    field = page.one(".paper [data-step='0'] .quantity input")
-    name = page.one(".paper [data-step='0']").get_attribute("data-exercise")
+    field = page.one(".exam-paper [data-step='0'] .quantity input")
+    name = page.one(".exam-paper [data-step='0']").get_attribute("data-exercise")
     assert "44:" in page.one("[role=timer]").text or "45:00" in page.one("[role=timer]").text
     assert not page.all("[data-hint]")
     assert not page.all("[data-verdict]")

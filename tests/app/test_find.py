@@ -176,6 +176,14 @@ def test_a_link_to_equipment_opens_with_its_values_and_a_wrong_one_is_told(page:
     assert "temperature" in page.one(".message.out").text
 
 
+@pytest.mark.parametrize("place", ["lines", "exercises", "charts/drying.dryer_energy_chart"])
+def test_the_search_field_has_its_width_on_every_page(page: Page, place: str) -> None:
+    page.open(place)
+    field, key = page.one("#seek").rect, page.one(".seek kbd").rect
+    assert field["width"] > 200
+    assert field["x"] < key["x"] < field["x"] + field["width"]
+
+
 def test_a_page_of_the_documentation_is_read_in_the_app(page: Page) -> None:
     page.open("read/handbook%2Fcyclones")
     assert page.one("h1").text == "Cyclones and gas cleaning"

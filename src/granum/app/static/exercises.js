@@ -102,6 +102,6 @@ function Sheet({ name }) {
       setProblem(fault.message);
     }
   };
-  return html`<details class="sheet"><summary>${t('For the teacher')}</summary><p class="small">${t('Each student gets the numbers of a seed: the link of the exercise with ?seed=7 is that of student 7. The sheet holds the numbers and the answers of all.')}</p>
+  return html`<details class="class-sheet"><summary>${t('For the teacher')}</summary><p class="small">${t('Each student gets the numbers of a seed: the link of the exercise with ?seed=7 is that of student 7. The sheet holds the numbers and the answers of all.')}</p>
     <div class="row">${field('first', t('Seeds from'))} ${field('last', t('to'))} <button class="button" disabled=${!good} onClick=${save}>${t('Answers as CSV')}</button></div>${problem && html`<p class="message out" role="alert">${problem}</p>`}</details>`;
 }

@@ -225,7 +225,7 @@ function numbers({ data, layout }) {
 /** The numbers of a Sankey diagram: what flows from where to where. */
 function widths({ node, link, valuesuffix }) {
   const [from, to, values] = [link.source, link.target, link.value].map(decoded);
-  const rows = values.map((value, i) => [link.label[i], node.label[from[i]], node.label[to[i]], value]);
+  const rows = values.map((value, i) => [link.label?.[i] ?? '', node.label[from[i]], node.label[to[i]], value]);
   return { heads: [t('flow'), t('from'), t('to'), (valuesuffix ?? '').trim()], rows };
 }
 
