@@ -16,6 +16,7 @@ from granum.core.i18n import catalog
 from granum.core.kinds import KINDS
 from granum.core.registry import everything
 from granum.core.sources import cite
+from granum.streams.units import Unit
 
 SOURCE = Path(granum.__file__).parent
 MESSAGES = sorted(
@@ -92,3 +93,9 @@ def test_limits_have_french_and_a_known_source() -> None:
         for limit in limits
         if not isinstance(limit.low, str) and not isinstance(limit.high, str) and not limit.low <= limit.high
     ] == []
+
+
+def test_every_port_has_its_french() -> None:
+    units = [thing for thing in everything().values() if isinstance(thing, type) and issubclass(thing, Unit)]
+    ports = {port for unit in units for port in (*unit.outlet_names(), *(unit.inlet_names() or ()))}
+    assert not sorted(port for port in ports if port.replace("_", " ") not in catalog("fr"))

@@ -269,7 +269,7 @@ def _size(molar_mass: float) -> Any:
     source="wijmans1995; filmtec2023",
     title="Reverse osmosis or nanofiltration plant",
     equation=(
-        r"u = A\left(\Delta p - \Delta\pi\right),\qquad \frac{c_p}{c_b} = "
+        r"u = A_w\left(\Delta p - \Delta\pi\right),\qquad \frac{c_p}{c_b} = "
         r"\frac{B\,e^{u/k}}{u + B\,e^{u/k}}"
     ),
 )

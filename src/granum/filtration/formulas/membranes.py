@@ -68,7 +68,7 @@ def filtrate_flux_membrane(
 @formula(
     source="wijmans1995",
     title="Flux of a membrane from its permeance",
-    equation=r"J = A\,(\Delta p - \Delta\pi)",
+    equation=r"J = A_w\,(\Delta p - \Delta\pi)",
     output="filtrate_flux",
     typical={"pressure_drop": (1e6, 6e6)},
     symbols={"filtrate_flux": "J"},
