@@ -1,5 +1,5 @@
 // One step of an exercise: an answer typed or chosen, marked at once with its reason; hint, answer and chart on request.
-import { html, t, ask, link, useAnswer, useKept, useState, settings, Working } from './core.js';
+import { html, t, ask, link, useAnswer, useKept, useRef, useState, settings, Working } from './core.js';
 import { Quantity } from './quantity.js';
 import { Sensitivity } from './sensitivity.js';
 import { note } from './progress.js';
@@ -24,8 +24,14 @@ export function Step({ name, place, seed, step, record }) {
   const [problem, setProblem] = useState('');
   const chosen = step.choices.length > 0;
   const right = kept.verdict?.verdict === 'right';
+  const latest = useRef(kept); // a verdict comes late: it stands beside the answer it is about, and only there
+  const hold = (next) => {
+    latest.current = next;
+    keep(next);
+  };
   const check = async () => {
     if (!kept.text.trim() || busy) return;
+    const { turn } = latest.current;
     setBusy(true);
     setProblem('');
     try {
@@ -34,7 +40,8 @@ export function Step({ name, place, seed, step, record }) {
         answer: kept.text,
         seed,
       });
-      keep({ text: kept.text, verdict, language: settings.language });
+      if (latest.current.turn === turn)
+        hold({ ...latest.current, verdict, language: settings.language });
       if (verdict.verdict !== 'unclear')
         note(name, place, { right: verdict.verdict === 'right', answer: kept.text, seed });
     } catch (fault) {
@@ -46,7 +53,8 @@ export function Step({ name, place, seed, step, record }) {
     if (!open && !right) note(name, place, { shown: true, seed });
     setOpen(!open);
   };
-  const change = (text) => keep({ text, verdict: null });
+  const change = (text, understood) =>
+    hold(understood ? { ...latest.current, text } : { text, verdict: null, turn: (latest.current.turn ?? 0) + 1 });
   return html`<li data-step=${place}><h2><${Indexed} text=${step.ask} /></h2>
     <form class=${chosen ? 'reply chosen' : 'row reply'} onSubmit=${(e) => {
       e.preventDefault();

@@ -113,6 +113,7 @@ function kept(typed, menu) {
     : joined(parts.unit || !/\p{Nd}/u.test(parts.number) ? parts : { number: parts.number, unit: menu });
 }
 
+/** `onChange` gets the text, and whether it is only what the server understood of the text it had already. */
 export function Quantity({ p, id, note, text = '', onChange, problem, label = p.label }) {
   const given = held(text, p);
   const [typed, show] = useState(null);
@@ -127,10 +128,10 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
     raw.current = next;
     show(next);
   };
-  const send = (next) => {
+  const send = (next, understood = false) => {
     if (next !== sent.current) {
       sent.current = next;
-      onChange(next);
+      onChange(next, understood);
     }
   };
   useEffect(() => {
@@ -141,7 +142,7 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
     if (text) setUnit(given.unit);
   }, [text]);
   useEffect(() => {
-    if (reading?.number !== undefined) send(joined(reading));
+    if (reading?.number !== undefined) send(joined(reading), true);
   }, [reading]); // the value as it was understood; the text stays as it was typed
   const type = (next) => {
     setUnit(menu);
@@ -156,7 +157,7 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
     setTyped(null);
     if (found) {
       setUnit(found.unit);
-      send(joined(found));
+      send(joined(found), true);
     }
   };
   const choose = (next) => {
