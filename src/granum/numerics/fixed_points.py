@@ -55,14 +55,19 @@ class Anderson(AbstractMethod):
     tenfold, a new one is tried with what it taught; otherwise, or where it is not finite, the past
     is forgotten and a plain step is tried, halved each time that this happens in a row.
 
+    What the best residual was is forgotten every ``leniency`` steps: a recycle that fills often gets
+    worse before it gets better, and steps held to one lucky point would never leave it.
+
     Parameters
     ----------
     window: number of earlier points remembered.
     damping: part of each step taken, in (0, 1].
+    leniency: steps after which a worse residual than the best is allowed once.
     """
 
     window: int = eqx.field(static=True, default=5)
     damping: float = 1.0
+    leniency: int = eqx.field(static=True, default=10)
 
     def begin(self, start: jax.Array) -> tuple:
         """The state of an iteration that has evaluated nothing yet; its first item is where to evaluate, its
@@ -70,8 +75,9 @@ class Anderson(AbstractMethod):
         """
         history = jnp.zeros((min(self.window, start.size) + 1, start.size), start.dtype)
         zero = jnp.zeros((), int)
-        best = (start, jnp.full((), jnp.inf, start.dtype))
-        return start, best, (start, jnp.zeros_like(start)), history, history, zero, zero
+        infinite = jnp.full((), jnp.inf, start.dtype)
+        still = jnp.zeros_like(start)
+        return start, (start, infinite), (start, still), history, history, infinite, zero, zero
 
     def hopes(self, carry: tuple) -> jax.Array:
         """Whether it makes sense to go on."""
@@ -79,14 +85,16 @@ class Anderson(AbstractMethod):
 
     def proceed(self, carry: tuple, r: jax.Array) -> tuple:
         """The next state, given the residual at its first item."""
-        x, best, base, points, residuals, rejected, number = carry
+        x, best, base, points, residuals, least, rejected, number = carry
         slots = len(points)
         size = largest(r)
+        least = jnp.where(number % self.leniency == 0, jnp.inf, least)
         # the start is often an empty stream, whose residual says little: the first step from it may look far
         # worse and be right
-        second = (number == 1) & jnp.isfinite(size) & (size <= 100.0 * best[1])
-        accepted = second | (size <= 2.0 * best[1])
-        instructive = ~accepted & (size <= 10.0 * best[1]) & (rejected == 0)
+        second = (number == 1) & jnp.isfinite(size) & (size <= 100.0 * least)
+        accepted = second | ((size <= 2.0 * least) & (jnp.isfinite(size) | (number == 0)))
+        instructive = ~accepted & (size <= 10.0 * least) & (rejected == 0) & jnp.isfinite(size)
+        least = jnp.where(second, size, jnp.minimum(size, least))
         best = _choose(second | (size < best[1]), (x, size), best)
         base = _choose(accepted, (x, r), base)
         rejected = jnp.where(accepted, 0, rejected + 1)
@@ -102,7 +110,7 @@ class Anderson(AbstractMethod):
         move = self.damping * base[1]
         move = move - _fitted(changes, base[1]) @ (moves + self.damping * changes)
         length = jnp.where(instructive, 1.0, 0.5**rejected)
-        return base[0] + length * move, best, base, points, residuals, rejected, number + 1
+        return base[0] + length * move, best, base, points, residuals, least, rejected, number + 1
 
     def solve(
         self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int

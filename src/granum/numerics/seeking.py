@@ -102,9 +102,10 @@ class Seeking(eqx.Module):
 
 def _shifted(inner: tuple, state: jax.Array, jump: jax.Array) -> tuple:
     """What Anderson's method has learned, after the residuals have jumped with the parameters."""
-    _x, _best, base, points, residuals, rejected, number = inner
-    best = (state, jnp.full((), jnp.inf, state.dtype))
-    return state, best, (base[0], base[1] + jump), points, residuals + jump, jnp.zeros_like(rejected), number
+    _x, _best, base, points, residuals, _least, rejected, number = inner
+    infinite = jnp.full((), jnp.inf, state.dtype)
+    base, residuals, rejected = (base[0], base[1] + jump), residuals + jump, jnp.zeros_like(rejected)
+    return state, (state, infinite), base, points, residuals, infinite, rejected, number
 
 
 def _toward_middle(at: jax.Array) -> jax.Array:
