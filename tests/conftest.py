@@ -4,7 +4,7 @@ import ctypes
 import gc
 import os
 import tempfile
-from itertools import count
+import time
 from pathlib import Path
 
 # Both test processes share what they compile, also after forgetting it; a folder already named in the
@@ -44,15 +44,26 @@ QUICK = (
     "materials/",
     "porous/",
 )
-_finished = count(1)
-_kept = 0.0
+# between two looks, seconds: a list of twenty thousand maps takes some time to read
+SELDOM = 2.0
+_kept = _looked = 0.0
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """What has no quick test need not be read to find that out."""
+    if config.option.markexpr != "quick" or collection_path.suffix != ".py":
+        return None
+    return True if not _is_quick(collection_path) else None
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    here = Path(__file__).parent
     for item in items:
-        if item.path.relative_to(here).as_posix().startswith(QUICK):
+        if _is_quick(item.path):
             item.add_marker(pytest.mark.quick)
+
+
+def _is_quick(path: Path) -> bool:
+    return path.relative_to(Path(__file__).parent).as_posix().startswith(QUICK)
 
 
 @pytest.fixture(autouse=True)
@@ -60,9 +71,13 @@ def _bounded_memory():
     """Thousands of compiled functions in one process would exhaust memory and its maps: forget them before
     that.
     """
+    global _looked
     yield
-    if next(_finished) % 5 == 0 and (_resident() > max(MUCH, _kept + MORE) or _maps() > MANY_MAPS):
+    if time.monotonic() - _looked < SELDOM:
+        return
+    if _resident() > max(MUCH, _kept + MORE) or _maps() > MANY_MAPS:
         _forget()
+    _looked = time.monotonic()
 
 
 def _maps() -> int:

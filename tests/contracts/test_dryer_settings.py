@@ -152,7 +152,9 @@ def outcome(
     def both(x: Any) -> Any:
         return jax.vmap(lambda more: judged(build, PRODUCT[product], x, more))(jnp.array([1.0, AIR]))
 
-    lost, found, left, dry = jax.jit(lambda xs: jax.lax.map(both, xs, batch_size=50), **COOL)(rows)
+    # batches of one size: a smaller one at the end would be traced and compiled besides
+    batch = next(n for n in range(min(count, 50), 0, -1) if count % n == 0)
+    lost, found, left, dry = jax.jit(lambda xs: jax.lax.map(both, xs, batch_size=batch), **COOL)(rows)
     lost = np.asarray(lost)
     bad = {what: ~np.asarray(ok) & ~lost for what, ok in found.items()}
     if name in MORE_AIR_DRIES:

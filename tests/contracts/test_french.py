@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from functools import cache
 from pathlib import Path
 from string import Formatter
 
@@ -19,15 +20,23 @@ from granum.core.sources import cite
 from granum.streams.units import Unit
 
 SOURCE = Path(granum.__file__).parent
-MESSAGES = sorted(
-    {
-        m
-        for _f, _n, m, _c, _x in extract_from_dir(
-            str(SOURCE), [("**.py", "python"), ("**.j2", "jinja2")], keywords={"_": None}, comment_tags=()
-        )
-        if isinstance(m, str)
-    }
-)
+
+
+@cache
+def messages() -> dict[str, set[str]]:
+    """What the program says, by package; what belongs to none stands under its file."""
+    found: dict[str, set[str]] = {}
+    for file, _n, message, _c, _x in extract_from_dir(
+        str(SOURCE), [("**.py", "python"), ("**.j2", "jinja2")], keywords={"_": None}, comment_tags=()
+    ):
+        if isinstance(message, str):
+            found.setdefault(file.split("/")[0], set()).add(message)
+    return found
+
+
+def said() -> list[str]:
+    """All of it, each once."""
+    return sorted(set().union(*messages().values()))
 
 
 def fields(text: str) -> set[str]:
@@ -38,14 +47,7 @@ def fields(text: str) -> set[str]:
     "package", sorted(p.name for p in SOURCE.iterdir() if p.is_dir() and not p.name.startswith("__"))
 )
 def test_messages_have_french(package: str) -> None:
-    found = extract_from_dir(
-        str(SOURCE / package),
-        [("**.py", "python"), ("**.j2", "jinja2")],
-        keywords={"_": None},
-        comment_tags=(),
-    )
-    messages = {m for _f, _n, m, _c, _x in found if isinstance(m, str)}
-    missing = sorted(m for m in messages if m not in catalog("fr"))
+    missing = sorted(messages().get(package, set()) - set(catalog("fr")))
     assert not missing, f"{len(missing)} messages without French: {missing}"
 
 
@@ -59,8 +61,9 @@ def test_titles_and_descriptions_of_the_examples_have_french() -> None:
 
 
 def test_french_keeps_the_placeholders() -> None:
+    messages = set(said())
     wrong = [
-        m for m, french in catalog("fr").items() if "{" in m and m in MESSAGES and fields(m) != fields(french)
+        m for m, french in catalog("fr").items() if "{" in m and m in messages and fields(m) != fields(french)
     ]
     assert not wrong
 

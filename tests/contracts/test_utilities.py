@@ -81,9 +81,13 @@ def test_taken_of_separators_and_vessels(key: str) -> None:
     def both(row: Any) -> Any:
         feeds = case.feeds(case.mixture, row[:FEED])
         unit = case.unit(feeds, row[FEED:])
-        return taken(unit, feeds), taken(unit, {n: s.part(2.0, 2.0, 2.0) for n, s in feeds.items()})[0]
+        return jax.vmap(lambda n: taken(unit, {name: s.part(n, n, n) for name, s in feeds.items()}))(
+            jnp.array([1.0, 2.0])
+        )
 
-    (uses, powers), twice = compiled(both, jnp.asarray(setting()))
+    uses, powers = compiled(both, jnp.asarray(setting()))
+    twice = {name: value[1] for name, value in uses.items()}
+    uses, powers = ({name: value[0] for name, value in found.items()} for found in (uses, powers))
     judge(uses, powers)
     for name, value in uses.items():
         if purpose(name) in MOVING:

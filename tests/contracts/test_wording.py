@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.contracts.test_french import MESSAGES
+from tests.contracts.test_french import said
 
 import granum
 from granum.core.i18n import catalog
@@ -39,7 +39,7 @@ def of_the_page() -> dict[str, str]:
 def told() -> Iterator[str]:
     """Every message in both languages."""
     french = catalog("fr")
-    for message in MESSAGES:
+    for message in said():
         yield message
         yield french.get(message, "")
     yield from (text for pair in of_the_page().items() for text in pair)
@@ -90,6 +90,6 @@ def test_no_message_says_a_sentence_or_a_word_twice() -> None:
 
 
 def test_french_of_the_page_and_of_the_program_has_its_apostrophe() -> None:
-    french = {**{m: catalog("fr").get(m, "") for m in MESSAGES}, **of_the_page()}
+    french = {**{m: catalog("fr").get(m, "") for m in said()}, **of_the_page()}
     wrong = [text for text in french.values() if re.search(r"[^\W\d_]'[^\W\d_]", text)]
     assert not wrong
