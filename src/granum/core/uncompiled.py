@@ -27,9 +27,7 @@ RENT = 500
 LENT = 150
 """The same for a loop that is kept compiled: the next process takes it ready."""
 MODERATE = 8000
-"""Operations of a loop up to which this holds; to compile a larger one, such as a whole line, makes a first run
-long.
-"""
+"""Operations of a loop up to which this holds: to compile a whole line makes a first run long."""
 LEAST = 100
 """Operations that compiling anything costs beforehand."""
 PASSES = 8
