@@ -288,7 +288,7 @@ def test_a_loop_that_grows_beyond_what_was_kept_is_traced_anew(folder: Path) -> 
 
 
 def test_a_loop_is_compiled_earlier_where_the_next_process_has_it_too() -> None:
-    turns = 7000
+    turns = 10_000
     closed = jax.make_jaxpr(long)(0.1, turns)
     (alone,), taken_alone = Program(closed).run([0.1, turns])
     shared = Program(closed, kept=True)

@@ -24,7 +24,7 @@ Body = Callable[..., list[Any]]
 
 RENT = 500
 """Steps run uncompiled that cost as much as compiling one operation."""
-LENT = 150
+LENT = 220
 """The same for a loop that is kept compiled: the next process takes it ready."""
 MODERATE = 8000
 """Operations of a loop up to which this holds: to compile a whole line makes a first run long."""
