@@ -287,6 +287,17 @@ def test_a_loop_that_grows_beyond_what_was_kept_is_traced_anew(folder: Path) -> 
     assert path.stat().st_size > small  # now with what is compiled
 
 
+def test_a_loop_is_compiled_earlier_where_the_next_process_has_it_too() -> None:
+    turns = 10_000
+    closed = jax.make_jaxpr(long)(0.1, turns)
+    (alone,), taken_alone = Program(closed).run([0.1, turns])
+    shared = Program(closed, kept=True)
+    (same,), taken = shared.run([0.1, turns])
+    assert same == pytest.approx(float(alone), rel=1e-12)
+    assert taken < 0.7 * taken_alone  # the rest ran compiled
+    assert shared.loops[0] is not None
+
+
 def test_what_only_jax_does_is_not_kept(folder: Path) -> None:
     def inverse(x: Any) -> Any:
         return jax.lax.erf_inv(x)

@@ -24,6 +24,10 @@ Body = Callable[..., list[Any]]
 
 RENT = 500
 """Steps run uncompiled that cost as much as compiling one operation."""
+LENT = 220
+"""The same for a loop that is kept compiled: the next process takes it ready."""
+MODERATE = 8000
+"""Operations of a loop up to which this holds: to compile a whole line makes a first run long."""
 LEAST = 100
 """Operations that compiling anything costs beforehand."""
 PASSES = 8
@@ -162,7 +166,8 @@ class _Loop:
 
     def __init__(self, op: Operation, maker: _Maker, size: float, work: float):
         self._op, self._options, self._kept = op, maker.options, maker.kept
-        self._left = RENT * (size + LEAST)
+        rent = LENT if self._kept and size <= MODERATE else RENT
+        self._left = rent * (size + LEAST)
         self.size, self.work = size, work
         self.written = next(maker.written, None)
         self.is_lost = False

@@ -247,12 +247,9 @@ class Run:
         greenhouse gas.
         """
         sheets = self.solution.sheets
-        found = totals(
-            self.sheet,
-            {name: sheets[name].uses for name in self.sheet.order},
-            {name: sheets[name].figures for name in self.sheet.order},
-            self.streams,
-        )
+        uses = {name: sheets[name].uses for name in self.sheet.order}
+        figures = {name: sheets[name].figures for name in self.sheet.order}
+        found = compiled(totals)(*as_arrays((self.sheet, uses, figures, self.streams)))
         return Totals(*(float(x) for x in found))
 
     @cached_property
@@ -275,10 +272,11 @@ class Run:
         taken, prices = self.carriers, self.line.prices
         return {n: cost_rate({n: x}, {n: prices[n]}) for n, x in taken.items() if n in prices}
 
-    @property
+    @cached_property
     def product(self) -> str:
         """Name of the main product: the stream leaving with most solid, without solid that with most mass."""
-        return main_product(self.sheet, self.streams)
+        place = compiled(main_product)(*as_arrays((self.sheet, self.streams)))
+        return self.sheet.products[int(place)]
 
     def totals(self) -> Iterator[tuple[Parameter, float]]:
         """The line's totals with their declaration; those per water only where water is removed."""

@@ -168,10 +168,14 @@ def streams_by_product(
     """A figure of the main product: the stream leaving the line with most solid, or where none has any, with
     most mass.
     """
+    return jnp.stack([figure(streams[name]) for name in line.products])[main_product(line, streams)]
+
+
+def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
+    """Which of the line's products is the main one, by its place among them; may be traced."""
     leaving = [streams[name] for name in line.products]
     solid, mass = (jnp.stack([getattr(s, n) for s in leaving]) for n in ("solid_flow", "mass_flow"))
-    chosen = jnp.argmax(jnp.where(jnp.sum(solid) > 0.0, solid, mass))
-    return jnp.stack([figure(s) for s in leaving])[chosen]
+    return jnp.argmax(jnp.where(jnp.sum(solid) > 0.0, solid, mass))
 
 
 def price_parameter(name: str) -> Parameter:
@@ -207,12 +211,6 @@ def cost_rate(taken: Mapping[str, float], prices: Mapping[str, Any]) -> float:
         for name, price in prices.items()
     ]
     return float(sum(costs))
-
-
-def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> str:
-    """Name of the main product of a solved line."""
-    place = streams_by_product(line, {n: streams[n] for n in line.products}, lambda s: s.mass_flow)
-    return next(n for n in line.products if float(streams[n].mass_flow) == float(place))
 
 
 def _water(line: Flowsheet, figures: Mapping[str, Any], streams: Mapping[str, Stream]) -> tuple[Any, Any]:
