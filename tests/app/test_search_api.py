@@ -25,7 +25,7 @@ def client(address: str) -> Iterator[Any]:
     ("asked", "language", "sort", "key"),
     [
         ("vacuum drum", "en", "equipment", "filtration.rotary_vacuum_drum"),
-        ("jar test", "en", "lab test", "settling.batch_test"),
+        ("jar test", "en", "lab test", "settling.jar_test"),
         ("humidity chart", "en", "chart", "humid_gas.psychrometric_chart"),
         ("which dryer", "en", "procedure", "drying.choose"),
         ("potassium nitrate hot liquor", "en", "line", "potassium-nitrate/line.toml"),
