@@ -112,10 +112,10 @@ JARS = JarTest(  # Davis 2010, p. 6-19, at pH 6
     np.array([5.0, 7.0, 10.0, 12.0, 15.0, 20.0]) * 1e-3, [14.0, 9.5, 5.0, 4.5, 6.0, 13.0], 15.0, 6.0
 )
 jars = JARS.fit()
-dose = jars["dose_optimum"].value * 1e3
-dose_low, dose_high = (1e3 * x for x in jars["dose_optimum"].interval_95)
-dose_least = jars["dose_least"].value * 1e3
-dose_again = jars["dose_restabilized"].value * 1e3
+dose = jars["dose_optimum"].value
+dose_low, dose_high = jars["dose_optimum"].interval_95
+dose_least = jars["dose_least"].value
+dose_again = jars["dose_restabilized"].value
 sharpness = jars["charge_sharpness"].value
 lasting = float(s.capture_efficiency_dose("8 mg/L", jars["dose_optimum"].value, sharpness))
 

@@ -15,7 +15,7 @@ Turbidity = Annotated[PositiveNumber, Within(1e-9)]
 CLEARER = "The least residual turbidity lies below that of the raw water."
 _DOSES = {"coagulant_dose": (1e-3, 0.1), "dose_optimum": (5e-3, 0.06)}
 _JARS = _DOSES | {
-    "raw_turbidity": (5.0, 500.0),
+    "raw_turbidity": (20.0, 500.0),
     "residual_turbidity_least": (0.5, 10.0),
     "dose_half_width": (2e-3, 0.05),
 }
@@ -57,10 +57,10 @@ def charge_sharpness_jar(
     """How sharply collisions cease to last away from the best dose, from the dose at which half of the
     turbidity that the best dose takes out stays in.
 
-    By hand, of 100 to 25 with a half width as large as the dose: ln(ln 4/ln 1.6) = 1.0814.
+    By hand, of 100 to 25 with a half width as large as the dose: ln(ln 4/ln 1.6) = 1.0816.
 
     >>> round(charge_sharpness_jar(100.0, 25.0, "10 mg/L", "10 mg/L"), 4)
-    1.0814
+    1.0816
     """
     T0, Tm = raw_turbidity, residual_turbidity_least
     clears = Tm < T0
