@@ -244,8 +244,8 @@ def _flocs() -> Data:
 
 def _coagulant_jars() -> Data:
     D = np.linspace(5e-3, 45e-3, 9)
-    share = np.log(60.0 / 31.0) / np.log(30.0)  # of the collisions that last, at the half width of 12 mg/L
-    lasting = share ** (((D - 25e-3) / 12e-3) ** 2)
+    share = np.log(60.0 / 31.0) / np.log(30.0)  # of the collisions that last, at the half width of 8 mg/L
+    lasting = share ** (((D - 15e-3) / 8e-3) ** 2)
     columns = {"coagulant_dose": D, "residual_turbidity": 60.0 * (2.0 / 60.0) ** lasting}
     return Data(columns, {"raw_turbidity": 60.0}, "residual_turbidity", 0.02)
 

@@ -111,8 +111,8 @@ class Flocculator(Unit):
         if (self.dose_optimum is None) != (self.charge_sharpness is None):
             raise InputError(
                 _(
-                    "What a dose does needs both the best dose ('dose_optimum') and the 'charge_sharpness' of "
-                    "a jar test."
+                    "What a dose does needs both the best dose ('dose_optimum') and the "
+                    "'charge_sharpness' of a jar test."
                 ),
                 name="dose_optimum",
             )
