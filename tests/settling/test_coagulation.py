@@ -51,7 +51,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say(law):
     doses = np.linspace(5e-3, 45e-3, 12)
     exact = np.asarray(SHAPES[law](doses, RAW, LEAST, BEST, WIDTH))
     rng = np.random.default_rng(11)
-    inside = dict.fromkeys(("dose_optimum", "dose_half_width"), 0)
+    inside = {"dose_optimum": 0, "dose_half_width": 0}
     for _repetition in range(200):
         left = np.abs(exact + rng.normal(0.0, 1.0, doses.size))
         found = JarTest(doses, left, RAW, dose_response=law).fit()

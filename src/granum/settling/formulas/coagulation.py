@@ -57,7 +57,7 @@ def charge_sharpness_jar(
     """How sharply collisions cease to last away from the best dose, from the dose at which half of the
     turbidity that the best dose takes out stays in.
 
-    By hand, of 100 to 25 with a half width as large as the dose: ln(ln 4/ln 1.6) = 1.0816.
+    By hand, a quarter left and a half width as large as the dose: ln(ln 4/ln 1.6) = 1.0816.
 
     >>> round(charge_sharpness_jar(100.0, 25.0, "10 mg/L", "10 mg/L"), 4)
     1.0816
