@@ -8,6 +8,7 @@ from validation import EXAMPLES, settling_curve
 import granum as gr
 from granum.core import registry
 from granum.core.charts import LINES, add_line, axis_title, figure
+from granum.settling.lab_tests.jar_test import JarTest
 
 s, p = gr.settling, gr.particles
 QUARTZ = {"particle_density": 2650, "fluid_density": 998.2, "dynamic_viscosity": "1.002 mPa s"}
@@ -107,6 +108,16 @@ grains = float(s.flocculation_ratio_tanks(40.0, "30 min", constant, 1e-7, 3))
 grains_one = float(s.flocculation_ratio_tanks(40.0, "30 min", constant, 1e-7, 1))
 growth = float(s.settling_growth_fractal(grains))
 faster = growth**2
+JARS = JarTest(  # Davis 2010, p. 6-19, at pH 6
+    np.array([5.0, 7.0, 10.0, 12.0, 15.0, 20.0]) * 1e-3, [14.0, 9.5, 5.0, 4.5, 6.0, 13.0], 15.0, 6.0
+)
+jars = JARS.fit()
+dose = jars["dose_optimum"].value
+dose_low, dose_high = jars["dose_optimum"].interval_95
+dose_least = jars["dose_least"].value
+dose_again = jars["dose_restabilized"].value
+sharpness = jars["charge_sharpness"].value
+lasting = float(s.capture_efficiency_dose("8 mg/L", jars["dose_optimum"].value, sharpness))
 
 
 AUTHORS = ("Richardson–Zaki", "Garside–Al-Dibouni", "Barnea–Mizrahi")

@@ -29,7 +29,7 @@ MEANT = {
     "sand filter": "filtration.deep_bed_filter",
     "decanter centrifuge": "centrifuges.scroll_decanter",
     "basket centrifuge": "centrifuges.peeler",
-    "jar test": "settling.batch_test",
+    "jar test": "settling.jar_test",
     "buchner test": "filtration.leaf_test",
     "jaw crusher": "comminution.cone_crusher",
     "ball mill": "comminution.ball_mill",

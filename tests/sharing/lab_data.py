@@ -242,6 +242,14 @@ def _flocs() -> Data:
     )
 
 
+def _coagulant_jars() -> Data:
+    D = np.linspace(5e-3, 45e-3, 9)
+    share = np.log(60.0 / 31.0) / np.log(30.0)  # of the collisions that last, at the half width of 8 mg/L
+    lasting = share ** (((D - 15e-3) / 8e-3) ** 2)
+    columns = {"coagulant_dose": D, "residual_turbidity": 60.0 * (2.0 / 60.0) ** lasting}
+    return Data(columns, {"raw_turbidity": 60.0}, "residual_turbidity", 0.02)
+
+
 def _vials() -> Data:
     P = np.array([5.0, 10.0, 15.0, 20.0, 27.0, 35.0, 45.0, 60.0])
     K = 11.0 + 3.0 * P / (1 + 0.03 * P)
@@ -473,6 +481,7 @@ def data(key: str) -> Data:
         ),
         "compression_test": _compression,
         "flocculent_column": _flocs,
+        "jar_test": _coagulant_jars,
         "sludge_index_test": lambda: Data(
             {
                 "solids_concentration": np.linspace(0.4, 2.2, 7),

@@ -81,6 +81,12 @@ from granum.settling.formulas.basins import (
     removal_efficiency_hazen as removal_efficiency_hazen,
     scour_velocity_camp as scour_velocity_camp,
 )
+from granum.settling.formulas.coagulation import (
+    capture_efficiency_dose as capture_efficiency_dose,
+    charge_sharpness_jar as charge_sharpness_jar,
+    residual_turbidity_neutralization as residual_turbidity_neutralization,
+    residual_turbidity_parabola as residual_turbidity_parabola,
+)
 from granum.settling.formulas.flocculation import (
     aggregation_constant_shear as aggregation_constant_shear,
     flocculation_ratio_tanks as flocculation_ratio_tanks,
@@ -146,6 +152,9 @@ from granum.settling.lab_tests.curve import (
 )
 from granum.settling.lab_tests.flocculent_column import (
     FlocculentColumn as FlocculentColumn,
+)
+from granum.settling.lab_tests.jar_test import (
+    JarTest as JarTest,
 )
 from granum.settling.lab_tests.sludge_index_test import (
     SludgeIndexTest as SludgeIndexTest,

@@ -8,9 +8,13 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.kinds import (
+    Concentration,
     Fraction,
     Frequency,
+    MassFlow,
     PositiveNumber,
     Power,
     Ratio,
@@ -20,6 +24,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
+from granum.settling.formulas.coagulation import Dose, capture_efficiency_dose
 from granum.settling.formulas.flocculation import (
     aggregation_constant_shear,
     flocculation_ratio_tanks,
@@ -49,6 +54,7 @@ class FlocculatorFigures(NamedTuple):
     flocculation_ratio: PositiveNumber
     equivalent_growth: PositiveNumber
     shaft_power: Power
+    coagulant_flow: MassFlow
 
 
 def coarsen(edges: Any, growth: Any) -> Any:
@@ -64,7 +70,7 @@ def coarsen(edges: Any, growth: Any) -> Any:
 
 @equipment(
     "flocculator",
-    source="argaman1970; camp1943; jiang1991",
+    source="argaman1970; camp1943; jiang1991; reerink1954; stumm1968",
     title="Flocculator",
     equation=r"\frac{N_0}{N} = \frac{(1 + K_A G T/m)^m}{1 + K_B G^2\,\frac{T}{m}\sum_i (1 + K_A G T/m)^i}",
 )
@@ -74,7 +80,8 @@ class Flocculator(Unit):
 
     The stream goes on with the size of the compact grain that settles as fast as the floc: all classes grow
     by one factor, each by the same number of grains. The constant of aggregation follows from the volume of
-    the grains and the share of collisions that last, unless a jar test gives it.
+    the grains and the share of collisions that last, unless a jar test gives it. With the best dose and the
+    sharpness that a jar test finds, a dose beside the best one leaves fewer collisions that last.
     """
 
     volume: Annotated[Volume, Within(1e-6)]
@@ -85,6 +92,9 @@ class Flocculator(Unit):
     aggregation_constant: Ratio | None = None
     breakage_constant: Time = 1e-7
     fractal_dimension: Annotated[Ratio, Within(1.5, 3.0)] = 2.2
+    coagulant_dose: Concentration = 0.0
+    dose_optimum: Dose | None = None
+    charge_sharpness: PositiveNumber | None = None
 
     limits: ClassVar[Limits] = {
         "gradient": Limit("velocity gradient", 10.0, 100.0, "1/s", "camp1955"),
@@ -92,12 +102,31 @@ class Flocculator(Unit):
         "held": Limit("solids gathered in the largest class", 0.0, 0.05, "dimensionless", "argaman1970"),
     }
 
-    utilities: ClassVar[Utilities] = {"electric_power_agitator": Utility("camp1943")}
+    utilities: ClassVar[Utilities] = {
+        "electric_power_agitator": Utility("camp1943"),
+        "consumption_coagulant": Utility("davis2010, p. 6-18"),
+    }
+
+    def __check_init__(self) -> None:
+        if (self.dose_optimum is None) != (self.charge_sharpness is None):
+            raise InputError(
+                _(
+                    "What a dose does needs both the best dose ('dose_optimum') and the "
+                    "'charge_sharpness' of a jar test."
+                ),
+                name="dose_optimum",
+            )
+
+    def _lasting(self) -> Any:
+        """Share of the collisions that last at the dose given, of those at the best dose."""
+        if self.dose_optimum is None or self.charge_sharpness is None:
+            return 1.0
+        return capture_efficiency_dose.function(self.coagulant_dose, self.dose_optimum, self.charge_sharpness)
 
     def inside(self, feed: Stream) -> FlocculatorFigures:
         flow = jnp.maximum(feed.slurry_volume_flow, FASTEST)
         stay = self.volume / flow
-        constant = (
+        constant = self._lasting() * (
             aggregation_constant_shear(feed.solids_volume_fraction, self.capture_efficiency)
             if self.aggregation_constant is None
             else jnp.asarray(self.aggregation_constant, dtype=float)
@@ -113,6 +142,7 @@ class Flocculator(Unit):
             number,
             settling_growth_fractal(number, self.fractal_dimension),
             power_stirring(self.velocity_gradient, self.volume, feed.liquid_viscosity),
+            self.coagulant_dose * feed.slurry_volume_flow,
         )
 
     def outlets(self, inside: FlocculatorFigures, feed: Stream) -> Flocculated:
@@ -134,4 +164,7 @@ class Flocculator(Unit):
     def drawn(
         self, inside: FlocculatorFigures, outlets: Flocculated, figures: FlocculatorFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {"electric_power_agitator": driven(figures.shaft_power)}
+        return {
+            "electric_power_agitator": driven(figures.shaft_power),
+            "consumption_coagulant": figures.coagulant_flow,
+        }
