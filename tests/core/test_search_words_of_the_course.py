@@ -19,6 +19,13 @@ from granum.core.search import _synonyms, search
         ("point de rosée", "humid_gas.dew_point_temperature"),
         ("cyclone", "cyclones.gas_cyclone"),
         ("loi de Darcy", "porous.pressure_drop_darcy"),
+        ("milieu poreux", "porous.pressure_drop_darcy"),
+        ("milieux poreux", "porous.pressure_drop_darcy"),
+        ("porous medium", "porous.pressure_drop_darcy"),
+        ("porous media", "porous.pressure_drop_darcy"),
+        ("filtre", "filtration.separator_choice"),
+        ("filtres", "filtration.separator_choice"),
+        ("pression de vapeur saturante", "materials.water_vapor_pressure"),
     ],
 )
 def test_a_word_of_the_course_finds_its_card_first(words: str, key: str) -> None:

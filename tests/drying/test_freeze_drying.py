@@ -95,6 +95,17 @@ def test_design_space_of_lyopronto():
         )
 
 
+@pytest.mark.parametrize("name", [*VIAL, "temperature_limit"])
+def test_edges_of_the_design_space_for_many_values_are_those_of_each(name: str) -> None:
+    given = {"temperature_limit": 268.15, "sublimation_capacity": 4.37e-4, "vial_count": 398.0, **VIAL}
+    values = given[name] * np.array([0.98, 0.99, 1.0])
+    many = f.freeze_drying_limit(**{**given, name: values})
+    for place, value in enumerate(values):
+        one = f.freeze_drying_limit(**{**given, name: float(value)})
+        for found, alone in zip(many, one, strict=True):
+            assert np.broadcast_to(found, 3)[place] == pytest.approx(float(alone), rel=1e-9)
+
+
 def test_against_scipy_with_the_same_equations():
     """Another integrator, another root finder, slow ramp and leveling resistance; ends inside and after the
     ramp.

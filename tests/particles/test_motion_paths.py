@@ -156,6 +156,18 @@ def test_approach_to_terminal_is_the_integral_of_motion():
     assert general.time == pytest.approx(time, rel=1e-7)
 
 
+@pytest.mark.parametrize("many", [3, 48])  # 48: as many as the rule of the integral has nodes
+def test_approach_to_terminal_of_many_particles_is_that_of_each(many):
+    sizes = np.geomspace(2e-5, 2e-3, many)
+    found = approach_to_terminal(sizes, 2650.0, 1000.0, 1e-3, drag=drag.drag_coefficient_newton)
+    vt = np.sqrt(4 * G * 1650 * sizes / (3 * 0.44 * 1000))  # Newton's drag: t = τ_N artanh f
+    np.testing.assert_allclose(found.time, vt * 2650 / (G * 1650) * np.arctanh(0.99), rtol=1e-8)
+    general = approach_to_terminal(sizes, 2650.0, 1000.0, 1e-3)
+    for place in (0, many // 2, many - 1):
+        alone = approach_to_terminal(float(sizes[place]), 2650.0, 1000.0, 1e-3)
+        assert general.time[place] == pytest.approx(float(alone.time), rel=1e-9)
+
+
 def test_stopping_distance():
     # Hinds 1999, table 5.1 (approx.): 10 µm unit density at 10 m/s stops in 2.3 mm with drag beyond Stokes, τ
     # v₀ = 3.1 mm

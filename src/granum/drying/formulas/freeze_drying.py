@@ -254,7 +254,8 @@ def freeze_drying_limit(
         vapor_resistance_saturation,
         pressure_chamber,
     )
-    limit = jnp.asarray(temperature_limit)
+    shape = jnp.broadcast_shapes(*(jnp.shape(x) for x in (*vial, temperature_limit)))
+    limit = jnp.broadcast_to(jnp.asarray(temperature_limit, dtype=float), shape)
     subliming = ice_vapor_pressure(limit) > vial.pressure
     flags.impossible(~subliming, limit, "temperature_limit", reason=COLD)
 
@@ -269,7 +270,7 @@ def freeze_drying_limit(
         T = find_root(balance, COLDEST, limit + 1e-9, start=limit - 1.0, tolerance=1e-12).value
         return jnp.where(subliming, (ice_vapor_pressure(T) - vial.pressure) / R, jnp.nan)
 
-    L0 = vial.height + 0.0 * limit
+    L0 = jnp.broadcast_to(vial.height, shape)
     time = gauss_legendre(lambda L: vial.ice_per_height / flux_at(L), jnp.zeros_like(L0), L0, order=NODES)
     depths = jnp.linspace(0.0, 1.0, 9).reshape((-1,) + (1,) * L0.ndim) * L0
     fluxes = flux_at(depths)

@@ -217,7 +217,7 @@ def approach_to_terminal(
     unconverged(found)
     speed = Re * eta / (rho * d)
     start = gravity * weight / (particle_density + added_mass_coefficient * rho)
-    end = -jnp.log1p(-approach_fraction)
+    end = -jnp.log1p(-approach_fraction) + 0.0 * Re  # the rule takes its shape from its limits
     steady = drag(Re)
 
     # s = v/v_t = 1 − e^−u takes the pole of 1/a at the terminal velocity out of the integrals.
