@@ -2,12 +2,10 @@
 
 from math import pi, sqrt
 
-import numpy as np
 from validation import EXAMPLES, settling_curve
 
 import granum as gr
 from granum.core import registry
-from granum.core.charts import LINES, add_line, axis_title, figure
 
 s, p = gr.settling, gr.particles
 QUARTZ = {"particle_density": 2650, "fluid_density": 998.2, "dynamic_viscosity": "1.002 mPa s"}
@@ -109,25 +107,5 @@ growth = float(s.settling_growth_fractal(grains))
 faster = growth**2
 
 
-AUTHORS = ("Richardson–Zaki", "Garside–Al-Dibouni", "Barnea–Mizrahi")
-
-
-def figure_drag():
-    return p.drag_chart()
-
-
-def figure_hindrance():
-    drawing = figure(axis_title("solids_volume_fraction", ""), axis_title("hindrance", ""))
-    share = np.linspace(0.001, 0.5, 120)
-    for name, authors, color in zip(ratio, AUTHORS, LINES, strict=False):
-        law_ = registry.find(f"particles.hindrance_{name}")
-        add_line(drawing, share, [float(law_(x, 0.01)) for x in share], authors, color=color)
-    return drawing
-
-
 def figure_jar():
     return settling_curve().figure
-
-
-def figure_flux():
-    return s.flux_diagram(20e3 / 3600 / 236, 236, 20e3 / 3600 / 500, area_tangent, settling=law)
