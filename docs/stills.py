@@ -56,7 +56,8 @@ def picture(drawn: dict[str, Any]) -> str:
     return (
         f'<svg viewBox="0 0 {WIDE} {HIGH}" role="img" aria-label="{titles[1]}; {titles[0]}" font-size="12">'
         f'<svg x="{LEFT}" y="8" width="{WIDE - LEFT - RIGHT}" height="{HIGH - LOW}" '
-        f'viewBox="{LEFT} 8 {WIDE - LEFT - RIGHT} {HIGH - LOW}">{"".join(p for p in parts if p[1] != "t")}</svg>'
+        f'viewBox="{LEFT} 8 {WIDE - LEFT - RIGHT} {HIGH - LOW}">'
+        f"{''.join(p for p in parts if p[1] != 't')}</svg>"
         f'<path d="M{LEFT} 8V{HIGH - LOW + 8}H{WIDE - RIGHT}" fill="none" stroke="#1c2430"/>'
         f"{''.join(p for p in parts if p[1] == 't')}"
         f'<text x="{(WIDE + LEFT) / 2}" y="{HIGH - 6}" text-anchor="middle">{titles[0]}</text>'

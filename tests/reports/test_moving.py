@@ -42,6 +42,7 @@ def test_pages_stay_light_and_show_the_same_in_both_languages(weights: dict[str,
 def test_every_slider_moves_its_figure(name: str) -> None:
     moving = FIGURES[name]
     start = moving.at()
+    assert all("range" in start["layout"][axis] for axis in ("xaxis", "yaxis"))  # axes stand still
     for slider in moving.sliders:
         assert slider.start in slider.positions()
         assert slider.positions() == sorted(set(slider.positions()))
@@ -72,7 +73,7 @@ def test_frames_are_in_the_order_that_a_page_counts_them() -> None:
 
 
 def test_the_leaf_meets_its_intercept() -> None:
-    """By hand, t/V at V = 0 is η R / (A Δp) = 8.937e-4 × 1.06e11 / (0.0439 × 338e3) = 6384 s/m³, or 6.384 s/L."""
+    """By hand, t/V at V = 0 is η R / (A Δp) = 8.937e-4 × 1.06e11 / (0.0439 × 338e3) = 6384 s/m³."""
     line = moving_figure("leaf").at()["data"][1]
     assert np.allclose(line["y"], 6.384, rtol=1e-3)
 

@@ -143,11 +143,6 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """A page of the documentation."""
         return Answer(await quick.run(lambda: as_html(name)))
 
-    @app.post("/api/figures/{name}")
-    async def figure(name: str, asked: Inputs) -> Response:
-        """A figure of the handbook where its sliders stand: ``{"values"}``, each in the unit of its slider."""
-        return Answer(await quick.run(lambda: _figure_at(name, asked.get("values"))))
-
     @app.get("/api/cards/{key}")
     async def card(request: Request, key: str) -> Response:
         """One card with everything a form needs."""
@@ -193,6 +188,11 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
     async def sensitivity(request: Request, key: str, asked: Inputs) -> Response:
         """A result over one of its inputs: ``{"inputs", "against", "output", "unit", "laws"}``."""
         return _json(await nearby(request, "sensitivity", asked | {"key": key}))
+
+    @app.post("/api/figures/{name}")
+    async def figure(request: Request, name: str, asked: Inputs) -> Response:
+        """A figure of the handbook where its sliders stand: ``{"values"}``, each in its slider's unit."""
+        return _json(await crew().run("figure", asked | {"name": name}, name, request))
 
     @app.post("/api/solve/{key}")
     async def solve(request: Request, key: str, asked: Inputs) -> Response:
@@ -518,15 +518,6 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
         for c in entries().values()
     ]
     return found, bytes(Answer({"cards": found}).body)
-
-
-def _figure_at(name: str, values: Any) -> dict[str, Any]:
-    from granum.reports.moving_figures import moving_figure  # draws with all domains
-
-    if not isinstance(values, dict | None):
-        raise InputError(_("'values' is a table of numbers by the name of their slider."))
-    found = moving_figure(name)
-    return {"sliders": found.told(), "figure": found.at(values)}
 
 
 def _cards() -> list[dict[str, Any]]:

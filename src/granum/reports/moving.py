@@ -1,5 +1,5 @@
-"""Figures with sliders. One is declared once, by its sliders and the function that draws it; the documentation
-draws it at every position beforehand, the app where a slider stands.
+"""Figures with sliders. One is declared once, by its sliders and the function that draws it; the
+documentation draws it at every position beforehand, the app where a slider stands.
 """
 
 from __future__ import annotations

@@ -47,6 +47,7 @@ def hindrance(reynolds: str) -> go.Figure:
     for authors, color in zip(laws, LINES, strict=False):
         law = registry.find("particles.hindrance_" + authors.lower().replace("–", "_").replace("-", "_"))
         add_line(drawn, share, np.asarray(law(share, float(reynolds))), authors, color=color)
+    drawn.update_xaxes(range=[0.0, 0.5])
     drawn.update_yaxes(range=[0.0, 1.0])
     return drawn
 
