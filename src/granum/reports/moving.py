@@ -4,6 +4,7 @@ documentation draws it at every position beforehand, the app where a slider stan
 
 from __future__ import annotations
 
+import re
 from base64 import b64decode
 from collections.abc import Callable, Mapping
 from itertools import product
@@ -52,7 +53,7 @@ class Slider(NamedTuple):
             return number
         raise InputError(
             _("{name} = {value}: this figure is drawn for numbers from {low} to {high}.").format(
-                name=self.name, value=value, low=format_number(self.low), high=format_number(self.high)
+                name=re.sub("<.*?>", "", self.label), value=value, low=format_number(self.low), high=format_number(self.high)
             )
         )
 
