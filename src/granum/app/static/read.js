@@ -13,8 +13,14 @@ export function Read({ state }) {
   const article = useRef(null);
   useEffect(() => {
     const places = [...(article.current?.querySelectorAll('[data-moving]') ?? [])];
-    for (const place of places) render(html`<${Moving} name=${place.dataset.moving} />`, place);
-    return () => places.forEach((place) => render(null, place));
+    // not within the effect itself: effects of what is rendered there would not run
+    const later = setTimeout(() =>
+      places.forEach((place) => render(html`<${Moving} name=${place.dataset.moving} />`, place)),
+    );
+    return () => {
+      clearTimeout(later);
+      places.forEach((place) => render(null, place));
+    };
   }, [data]);
   if (error)
     return html`<main class="page" id="main"><h1>${t('Reading')}</h1><p class="message out">${error.message}</p></main>`;
