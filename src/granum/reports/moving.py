@@ -53,7 +53,10 @@ class Slider(NamedTuple):
             return number
         raise InputError(
             _("{name} = {value}: this figure is drawn for numbers from {low} to {high}.").format(
-                name=re.sub("<.*?>", "", self.label), value=value, low=format_number(self.low), high=format_number(self.high)
+                name=re.sub("<.*?>", "", self.label),
+                value=value,
+                low=format_number(self.low),
+                high=format_number(self.high),
             )
         )
 
