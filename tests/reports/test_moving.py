@@ -6,6 +6,7 @@ import json
 import re
 from math import log
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -91,3 +92,16 @@ def test_what_lies_outside_the_slider_is_refused(value: object) -> None:
         moving_figure("drag").at({"particle_diameter": value})
     with pytest.raises(InputError, match="does not slide"):
         moving_figure("drag").at({"width": 1.0})
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_picture_needs_no_script(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(DOCS))
+    from stills import picture
+
+    drawn = FIGURES[name].at()
+    root = ElementTree.fromstring(picture(drawn))
+    lines = [part.get("points", "") for part in root.iter("polyline")]
+    assert len(lines) == sum("lines" in trace["mode"] for trace in drawn["data"])
+    assert len(list(root.iter("text"))) > 6
+    assert all("nan" not in line for line in lines)
