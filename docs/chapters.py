@@ -14,6 +14,7 @@ from typing import Any
 
 from granum.core.i18n import current_language, language
 from granum.core.unit_names import parse_unit, registry
+from granum.reports.moving_figures import moving_figure
 from granum.reports.stated import STATED, Number, stated_number
 
 DOCS = Path(__file__).parent
@@ -54,7 +55,10 @@ def _calculated(domain: str) -> dict[str, Any]:
 
 def _kept(domain: str, what: str, make: Any) -> Any:
     """What was made before from the same content, or what is made now."""
-    own = (DOCS / "handbook" / f"{domain}.py").read_bytes()
+    return _kept_as(domain, (DOCS / "handbook" / f"{domain}.py").read_bytes(), what, make)
+
+
+def _kept_as(domain: str, own: bytes, what: str, make: Any) -> Any:
     name = hashlib.sha256(b"\0".join((_program(), own, what.encode()))).hexdigest()[:24]
     place = KEPT / f"{domain}-{name}.json"
     if place.is_file():
@@ -85,6 +89,16 @@ def figure(domain: str, name: str, code: str) -> str:
         return chart.to_json()
 
     return _kept(domain, f"{name} {code}", drawn)
+
+
+def frames(name: str, code: str) -> str:
+    """A figure that moves in a language, at all positions of its sliders, as JSON."""
+
+    def drawn() -> str:
+        with language(code):
+            return json.dumps(moving_figure(name).frames(), separators=(",", ":"), allow_nan=False)
+
+    return _kept_as("moving", b"", f"{name} {code}", drawn)
 
 
 def code(domain: str, name: str) -> str:

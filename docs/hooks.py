@@ -10,6 +10,7 @@ from __future__ import annotations
 import html
 import importlib
 import inspect
+import json
 import math
 import posixpath
 import re
@@ -18,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import chapters
+import stills
 import validation
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File
@@ -210,6 +212,16 @@ def _plot(data: str, label: str) -> str:
     )
 
 
+def _moving(name: str) -> str:
+    """A figure with its sliders, drawn beforehand where they stop."""
+    drawn = chapters.frames(name.strip(), current_language()).replace("</", "<\\/")
+    return (
+        f'<div class="moving" data-figure="{html.escape(name)}"><div class="plot" role="group">'
+        f'<script type="application/json">{drawn}</script>'
+        f"<noscript>{stills.picture(json.loads(drawn))}</noscript></div></div>"
+    )
+
+
 def _validation(name: str) -> str:
     found = validation.FIGURES[name]()
     return f"{_figure(found.figure, found.caption)}\n\n*{found.caption}*\n\n{found.table}"
@@ -279,6 +291,7 @@ def _source(text: str) -> str:
 
 PARTS = {
     "include": _include,
+    "moving": _moving,
     "source": _source,
     "validation": _validation,
     "printed": _printed,

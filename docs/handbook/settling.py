@@ -2,12 +2,10 @@
 
 from math import pi, sqrt
 
-import numpy as np
 from validation import EXAMPLES, settling_curve
 
 import granum as gr
 from granum.core import registry
-from granum.core.charts import LINES, add_line, axis_title, figure
 from granum.settling.lab_tests.jar_test import JarTest
 
 s, p = gr.settling, gr.particles
@@ -120,25 +118,5 @@ sharpness = jars["charge_sharpness"].value
 lasting = float(s.capture_efficiency_dose("8 mg/L", jars["dose_optimum"].value, sharpness))
 
 
-AUTHORS = ("Richardson–Zaki", "Garside–Al-Dibouni", "Barnea–Mizrahi")
-
-
-def figure_drag():
-    return p.drag_chart()
-
-
-def figure_hindrance():
-    drawing = figure(axis_title("solids_volume_fraction", ""), axis_title("hindrance", ""))
-    share = np.linspace(0.001, 0.5, 120)
-    for name, authors, color in zip(ratio, AUTHORS, LINES, strict=False):
-        law_ = registry.find(f"particles.hindrance_{name}")
-        add_line(drawing, share, [float(law_(x, 0.01)) for x in share], authors, color=color)
-    return drawing
-
-
 def figure_jar():
     return settling_curve().figure
-
-
-def figure_flux():
-    return s.flux_diagram(20e3 / 3600 / 236, 236, 20e3 / 3600 / 500, area_tangent, settling=law)

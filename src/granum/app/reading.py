@@ -19,6 +19,7 @@ from granum.reports.stated import in_french_print, with_equations, with_numbers
 _HEADING = re.compile(r"^#+\s+(.+)$", re.MULTILINE)
 _FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 # plots and tables that the site makes, a plot with its caption
+_MOVING = re.compile(r"^\[\[moving (\w+)\]\]$", re.MULTILINE)
 _MADE = re.compile(r"^\[\[(?:figure[^\]\n]*\]\]\s*\n\*[^*\n]+\*|\w+[^\]\n]*\]\])\s*$", re.MULTILINE)
 _CARD = re.compile(r"\[\[card (\S+)\]\]")
 _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
@@ -82,13 +83,15 @@ def as_html(name: str) -> dict[str, Any]:
         made.append(equation)
         return f"\ue000{len(made) - 1}\ue001"
 
-    text = _MADE.sub("", _CARD.sub(of_card, found.text))
+    text = _MOVING.sub("\ue002\\1\ue003", found.text)
+    text = _MADE.sub("", _CARD.sub(of_card, text))
     text = _TO_CARD.sub(lambda m: f"](#/find/{quote(m[1], safe='')})", text)
     if name.startswith(CHAPTERS):
         text = with_equations(text, aside)
     text = _LINK.sub(lambda m: m[0] if m[2].startswith("#/") else _link_to(found.name, m[1], m[2]), text)
     shown = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
     shown = re.sub("\ue000(\\d+)\ue001", lambda m: made[int(m[1])], shown)
+    shown = re.sub("<p>\ue002(\\w+)\ue003</p>", r'<div data-moving="\1"></div>', shown)
     shown = shown.replace("<table>", '<div class="wide" tabindex="0" role="region"><table>')
     return {
         "title": html.unescape(found.title),

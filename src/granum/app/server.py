@@ -189,6 +189,11 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """A result over one of its inputs: ``{"inputs", "against", "output", "unit", "laws"}``."""
         return _json(await nearby(request, "sensitivity", asked | {"key": key}))
 
+    @app.post("/api/figures/{name}")
+    async def figure(request: Request, name: str, asked: Inputs) -> Response:
+        """A figure of the handbook where its sliders stand: ``{"values"}``, each in its slider's unit."""
+        return _json(await crew().run("figure", asked | {"name": name}, name, request))
+
     @app.post("/api/solve/{key}")
     async def solve(request: Request, key: str, asked: Inputs) -> Response:
         """The input for which a result is the wanted one: ``{"inputs", "find", "output", "wanted"}``."""

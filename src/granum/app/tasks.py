@@ -145,6 +145,17 @@ def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:
     return packed(described_curve(valued(payload["key"]), payload))
 
 
+def figure(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """A figure of the handbook with its sliders."""
+    from granum.reports.moving_figures import moving_figure  # draws with many domains
+
+    values = payload.get("values")
+    if not isinstance(values, dict | None):
+        raise InputError(_("'values' is a table of numbers by the name of their slider."))
+    found = moving_figure(payload["name"])
+    return packed({"sliders": found.told(), "figure": found.at(values)})
+
+
 def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The input for which a result is the wanted one."""
     return packed(solved_input(valued(payload["key"]), payload))
@@ -342,6 +353,7 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
         calculate,
         others,
         sensitivity,
+        figure,
         solve,
         calculation,
         chart,

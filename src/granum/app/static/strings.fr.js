@@ -50,8 +50,9 @@ export const french = {
   'By domain': 'Par domaine',
   '{count} cards': '{count} fiches',
   'The page is on its way…': 'La page arrive…',
-  'Plots and tables of this page are in the documentation site.':
-    'Les diagrammes et les tableaux de cette page sont dans la documentation en ligne.',
+  'The other plots and tables of this page are in the documentation site.':
+    'Les autres diagrammes et tableaux de cette page sont dans la documentation en ligne.',
+  'The figure is on its way…': 'La figure arrive…',
   'Without: {names}. In a line these inlets can be used too.':
     'Sans : {names}. Dans une ligne, ces entrées servent aussi.',
   'Put it in a line': 'Mettre dans une ligne',
