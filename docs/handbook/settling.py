@@ -2,6 +2,7 @@
 
 from math import pi, sqrt
 
+import numpy as np
 from validation import EXAMPLES, settling_curve
 
 import granum as gr
