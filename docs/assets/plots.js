@@ -14,7 +14,8 @@ function drawn(place, { data, layout }) {
   const below = narrow || data.filter((t) => t.name && t.showlegend !== false).length > 6;
   const legend = below ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: -0.2, yanchor: 'top' } : layout.legend;
   const margin = narrow ? { ...layout.margin, l: 50, r: 8 } : layout.margin;
-  return [place, data, { ...layout, legend, margin, autosize: true }, { responsive: true, displaylogo: false, displayModeBar: false }];
+  const yaxis = { ...layout.yaxis, automargin: true }; // a long title would stand on the numbers
+  return [place, data, { ...layout, yaxis, legend, margin, autosize: true }, { responsive: true, displaylogo: false, displayModeBar: false }];
 }
 
 /** The sliders of a figure that moves, above it; each takes it to what was drawn for their positions. */

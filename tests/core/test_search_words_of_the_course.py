@@ -12,6 +12,8 @@ from granum.core.search import _synonyms, search
     ("words", "key"),
     [
         ("vitesse de chute", "particles.terminal_velocity"),
+        ("vitesse de sedimentation", "particles.terminal_velocity"),
+        ("perte de charge", "porous.pressure_gradient_ergun"),
         ("vitesse limite", "particles.terminal_velocity"),
         ("loi de Stokes", "particles.terminal_velocity_stokes"),
         ("énergie de broyage", "comminution.specific_energy_bond"),
