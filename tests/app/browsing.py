@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,11 +10,11 @@ from typing import Any
 
 import axe_selenium_python.axe
 from selenium import webdriver
-from selenium.common.exceptions import NoSuchElementException, TimeoutException
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
 
 NEEDED = (
     "these tests need Debian's packages chromium and chromium-driver: apt-get install chromium "
@@ -84,21 +83,7 @@ class Page:
         self.until(lambda: self.browser.execute_script(ready))
 
     def until(self, condition: Callable[[], Any]) -> Any:
-        # what takes a moment is asked for soon, what takes long seldom
-        end, pause = time.monotonic() + PATIENCE, 0.01
-        while not (found := self._asked(condition)):
-            if time.monotonic() > end:
-                raise TimeoutException(f"waited {PATIENCE:g} s in vain")
-            time.sleep(pause)
-            pause = min(1.5 * pause, 0.1)
-        return found
-
-    @staticmethod
-    def _asked(condition: Callable[[], Any]) -> Any:
-        try:
-            return condition()
-        except NoSuchElementException:
-            return None
+        return WebDriverWait(self.browser, PATIENCE, poll_frequency=0.1).until(lambda _browser: condition())
 
     def one(self, selector: str) -> Any:
         return self.until(lambda: next(iter(self.browser.find_elements(By.CSS_SELECTOR, selector)), None))

@@ -10,6 +10,7 @@ from typing import Any
 from urllib.parse import quote
 
 import pytest
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from tests.app.browsing import Page
 
@@ -128,7 +129,8 @@ def test_a_changed_result_is_spoken(page: Page) -> None:
 
 def test_the_skip_link_leads_to_the_form(page: Page) -> None:
     page.open(STOKES)
-    page.one(".skip").send_keys(Keys.ENTER)
+    page.browser.execute_script("arguments[0].focus()", page.one(".skip"))
+    ActionChains(page.browser).send_keys(Keys.ENTER).perform()
     assert page.browser.switch_to.active_element.get_attribute("id") == "field-particle_diameter"
 
 

@@ -177,8 +177,8 @@ def _in_passes(
     """
     known = nothing_known(sheet, method, among(sheet, targets), len(targets))
     loops = [block.tears[0] for block in sheet.blocks if block.tears]
-    # where a look may hand the line over to the exact solver, it comes after so many passes: what solves a line
-    # never depends on the speed of the machine
+    # where a look may hand the line over to the exact solver, it comes after so many passes: what solves a
+    # line never depends on the speed of the machine
     by_passes = not targets and isinstance(method, Anderson)
     done, ahead, looks = 0, FIRST, []
     while True:

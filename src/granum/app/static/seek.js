@@ -65,7 +65,8 @@ export function Seek() {
   const at = Math.min(active, Math.max(flat.length - 1, 0));
   const show = () => {
     setOpen(true);
-    setTimeout(() => input.current?.focus());
+    input.current?.focus(); // at once: the next key is meant for it
+    setTimeout(() => input.current?.focus()); // on a phone it is hidden until it is open
   };
   const close = () => {
     setOpen(false);
