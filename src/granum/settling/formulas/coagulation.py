@@ -74,7 +74,8 @@ def charge_sharpness_jar(
     source="smoluchowski1917; reerink1954; stumm1968",
     equation=(
         r"T = T_0\left(\frac{T_m}{T_0}\right)^{\psi}, \quad "
-        r"\psi = \exp\left(-\left(\frac{D - D^*}{w}\right)^2 \ln\frac{\ln(T_0/T_m)}{\ln\frac{2 T_0}{T_0 + T_m}}\right)"
+        r"\psi = \exp\left(-\left(\frac{D - D^*}{w}\right)^2 "
+        r"\ln\frac{\ln(T_0/T_m)}{\ln\frac{2 T_0}{T_0 + T_m}}\right)"
     ),
     output="residual_turbidity",
     title="Residual turbidity by charge neutralization",
