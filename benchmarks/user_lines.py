@@ -8,6 +8,7 @@ With ``--samples`` a study of as many cases follows, in which one feed temperatu
 from __future__ import annotations
 
 import argparse
+import json
 import tempfile
 import tomllib
 from pathlib import Path
@@ -24,8 +25,10 @@ def handed(question: str, found: Cost) -> None:
 
 
 def study(case: Path) -> str:
-    """A study file in which the temperature of the first feed is uncertain by a kelvin."""
-    feed, given = next(iter(tomllib.loads(case.read_text(encoding="utf-8"))["feeds"].items()))
+    """A study file in which the temperature of the first feed is uncertain by a kelvin: all that leaves."""
+    told = tomllib.loads(case.read_text(encoding="utf-8"))
+    feed, given = next(iter(told["feeds"].items()))
+    products = [f"{name}.mass_flow" for name, ends in told["streams"].items() if len(ends) == 1]
     value, unit = given["temperature"].split()
     span = f'lower = "{value} {unit}", upper = "{float(value) + 1.0} {unit}"'
     return f'''
@@ -36,7 +39,7 @@ case = "{case.as_posix()}"
 
 [study.spread]
 kind = "monte_carlo"
-outputs = ["{feed}.temperature"]
+outputs = {json.dumps(products)}
 '''
 
 

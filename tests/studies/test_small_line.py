@@ -17,7 +17,9 @@ import granum as gr
 from granum import studies
 from granum.cases import read_studies, studies_of_line
 from granum.core.errors import GranumError
+from granum.flowsheet.ladder import at_rung, beginning
 from granum.flowsheet.specifications import design
+from granum.flowsheet.stream_figures import changed
 from granum.studies import chunks
 from granum.studies.lines import LineSubject, verdict
 from granum.studies.subjects import FINE, NEGATIVE, NOT_CLOSED, UNMET
@@ -226,3 +228,22 @@ def test_sizes_found_by_a_specification_under_uncertainty(tmp_path) -> None:
     )
     with pytest.raises(GranumError):
         read_studies(tmp_path / "case.toml")["sizes"].run()
+
+
+def test_neighbor_of_a_solved_line_takes_few_passes(tmp_path) -> None:
+    """The share of F/4 that makes a loop of 4 kg/s, for another F along slopes that were learned for the
+    first.
+    """
+    (tmp_path / "case.toml").write_text(SPECIFIED)
+    line = gr.read(tmp_path / "case.toml")
+
+    def solved(feed: float, begin):
+        return at_rung(changed(line.sheet, {"fresh.mass_flow": feed}), line.targets, 0, begin)
+
+    first = solved(1.0, beginning(line.sheet, line.targets, among_many=True))
+    near = beginning(line.sheet, line.targets, first, among_many=True)
+    for feed in (0.5, 1.1, 2.0):
+        found = solved(feed, near)
+        assert bool(found.converged)
+        assert float(found.values["divide.side_fraction"]) == pytest.approx(feed / 4.0, rel=1e-9)
+        assert max(map(int, found.solution.steps)) <= 12

@@ -13,7 +13,7 @@ from granum.core.units import format_number, show
 from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.solving import no_stream, nothing_known, solve
+from granum.flowsheet.solving import neighbor, no_stream, nothing_known, solve, unknowns
 from granum.flowsheet.specifications import (
     Designed,
     Target,
@@ -26,7 +26,7 @@ from granum.flowsheet.specifications import (
 )
 from granum.flowsheet.stream_figures import changed, given_value
 from granum.flowsheet.watching import Watch
-from granum.numerics import Anderson, Continuation
+from granum.numerics import Anderson, Chords, Continuation
 from granum.streams.stream import Stream
 
 
@@ -48,27 +48,41 @@ FIRST = 10
 """Passes through the loops before anybody looks how far they are."""
 PAUSE = 1.0
 """Seconds of passes between two looks, where these change nothing."""
+ALONG_CHORDS: dict[str, Any] = {"method": Chords(), "max_steps": 10_000}
+WIDEST = 400
+"""Unknowns of a loop whose slopes are worth measuring one by one."""
 
 
 class Beginning(NamedTuple):
-    """Where the search for a solution begins: torn streams and values to be found."""
+    """Where the search for a solution begins: torn streams, values to be found, and what was learned on the
+    way to an earlier one by a solver for neighbors, if there is one.
+    """
 
     torn: dict[str, Stream]
     near: dict[str, Any]
+    learned: tuple[Any, ...] = ()
 
 
-def beginning(sheet: Flowsheet, targets: tuple[Target, ...], left: Designed | None = None) -> Beginning:
-    """Empty streams and the values that the line has, or what an earlier solution left."""
+def beginning(
+    sheet: Flowsheet, targets: tuple[Target, ...], left: Designed | None = None, *, among_many: bool = False
+) -> Beginning:
+    """Empty streams and the values that the line has, or what an earlier solution left.
+
+    ``among_many``: for one of many neighbors, solved one after the other.
+    """
     torn = [name for block in sheet.blocks for name in block.tears]
+    asked = among(sheet, targets), len(targets)
+    learns = among_many and 0 < unknowns(sheet, *asked) <= WIDEST
     if left is not None:
-        return Beginning({name: left.solution.streams[name] for name in torn}, dict(left.values))
+        streams, known = left.solution.streams, left.solution.known
+        learned = neighbor(sheet, known, *asked) if learns else ()
+        return Beginning({name: streams[name] for name in torn}, dict(left.values), learned)
     nothing = no_stream(sheet)
+    own = {t.vary: given_value(sheet, t.vary) for t in targets}
     return Beginning(
         dict.fromkeys(torn, nothing),
-        {
-            t.vary: np.asarray(np.nan if (own := given_value(sheet, t.vary)) is None else own, float)
-            for t in targets
-        },
+        {name: np.asarray(np.nan if value is None else value, float) for name, value in own.items()},
+        nothing_known(sheet, ALONG_CHORDS["method"], *asked) if learns else (),
     )
 
 
@@ -80,7 +94,8 @@ def at_rung(
     """
     if rung == 0:
         given = begin or beginning(sheet, targets)
-        return design(sheet, targets, sheets=True, start=given.torn, near=given.near)
+        how = ALONG_CHORDS | {"known": given.learned} if given.learned else {}
+        return design(sheet, targets, sheets=True, start=given.torn, near=given.near, **how)
     left = beginning(sheet, targets, design(sheet, targets, max_steps=QUICK * (1 + len(targets))))
     return design(sheet, targets, sheets=True, start=left.torn, near=left.near, **EXACT)
 

@@ -17,9 +17,9 @@ from granum.core import flags
 from granum.flowsheet.passing import Made, is_known, known_or, pass_through, where
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
-from granum.numerics import Anderson, Continuation, Seeking, Settled, settle
+from granum.numerics import Anderson, Chords, Continuation, Seeking, Settled, settle
 from granum.numerics.fixed_points import largest
-from granum.numerics.settled import knowledge
+from granum.numerics.settled import again, knowledge
 from granum.streams import audit
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
@@ -30,6 +30,8 @@ TEMPERATURE_SCALE = 100.0  # K: brings the temperature of a torn stream to the s
 TOLERANCE = 1e-12
 MISSES = 1e-2  # what a wanted figure may miss is so much more than what a torn stream may
 NEARLY = 1e-5  # a loop so near to rest is not what is wrong when a figure cannot be had
+
+Method = Anderson | Continuation | Chords
 
 
 class Solution(NamedTuple):
@@ -81,7 +83,7 @@ def _run_loop(
     scale: Any,
     sheeted: Collection[str],
     wanted: Wanted | None,
-    method: Anderson | Continuation,
+    method: Method,
     max_steps: int,
     known: Any,
 ) -> tuple[Made, Settled, Any]:
@@ -166,7 +168,7 @@ def solve(
     *,
     sheets: bool | Collection[str] = False,
     wanted: Wanted | None = None,
-    method: Anderson | Continuation = Anderson(),
+    method: Method = Anderson(),
     max_steps: int = 200,
     known: tuple[Any, ...] | None = None,
 ) -> Solution:
@@ -179,7 +181,8 @@ def solve(
     sheets: also work out figures and checks: of every unit, of none, or of those named.
     wanted: parameters to find together with the loops, see ``design``.
     method: how loops are brought to rest: ``Anderson``, or ``Continuation``, which finds what is wanted in
-        the same steps, with exact derivatives; it compiles longer and solves loops that do not contract.
+        the same steps, with exact derivatives; it compiles longer and solves loops that do not contract; or
+        ``Chords``, for many neighbors of one case, which hands on what it learned of slopes.
         max_steps: most passes through a loop, or steps of ``Continuation``.
     known: of an earlier solution by the same method, to go on from there; ``nothing_known`` to begin.
     """
@@ -248,25 +251,43 @@ def no_stream(line: Flowsheet) -> Stream:
     return empty(feeds[0].mixture, jnp.mean(jnp.stack([s.temperature for s in feeds])), feeds[0].pressure)
 
 
-def _with_parameters(method: Anderson | Continuation, count: int) -> Anderson | Seeking | Continuation:
+def _with_parameters(method: Method, count: int) -> Seeking | Method:
     if isinstance(method, Continuation):
         return Continuation(count)
+    if isinstance(method, Chords):
+        return Chords(count, TOLERANCE)
     return Seeking(count, method, TOLERANCE) if count else method
 
 
-def nothing_known(
-    line: Flowsheet, method: Anderson | Continuation, among: frozenset[str], count: int
-) -> tuple[Any, ...]:
+def nothing_known(line: Flowsheet, method: Method, among: frozenset[str], count: int) -> tuple[Any, ...]:
     """What a solver begins with that is called for some passes at a time, ``count`` parameters being wanted
     ``among`` units.
     """
+    return tuple(np.zeros(knowledge(how, size)) for how, size in _sought_at_once(line, method, among, count))
+
+
+def unknowns(line: Flowsheet, among: frozenset[str], count: int) -> int:
+    """How many numbers are sought together at most."""
+    return max((size for _how, size in _sought_at_once(line, Anderson(), among, count)), default=0)
+
+
+def neighbor(line: Flowsheet, known: tuple[Any, ...], among: frozenset[str], count: int) -> tuple[Any, ...]:
+    """What ``Chords`` left of one case, for another one to begin with."""
+    sought = _sought_at_once(line, Chords(), among, count)
+    return tuple(again(how, left, size) for (how, size), left in zip(sought, known, strict=True))
+
+
+def _sought_at_once(
+    line: Flowsheet, method: Method, among: frozenset[str], count: int
+) -> list[tuple[Any, int]]:
+    """The solver of each loop, and of what is wanted, with the number of its unknowns."""
     mixture = next(iter(line.feeds.values())).mixture
     row = int(np.prod(mixture.solid_shape)) + len(mixture.liquids) + len(mixture.gases) + 1
-    return tuple(
-        np.zeros(knowledge(_with_parameters(method, count * aimed), row * len(block.tears) + count * aimed))
+    return [
+        (_with_parameters(method, count * aimed), row * len(block.tears) + count * aimed)
         for block, aimed in _joined(line, among)
         if block.tears or aimed
-    )
+    ]
 
 
 solve_compiled = eqx.filter_jit(solve)

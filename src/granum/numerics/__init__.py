@@ -15,6 +15,7 @@ _HOME = {
     "within_rounding": "fixed_points",
     "Seeking": "seeking",
     "Continuation": "continuation",
+    "Chords": "chords",
     "solve_system": "fixed_points",
     "Solution": "fixed_points",
     "AbstractMethod": "fixed_points",

@@ -95,11 +95,11 @@ class Anderson(AbstractMethod):
         accepted = second | ((size <= 2.0 * least) & (jnp.isfinite(size) | (number == 0)))
         instructive = ~accepted & (size <= 10.0 * least) & (rejected == 0) & jnp.isfinite(size)
         least = jnp.where(second, size, jnp.minimum(size, least))
-        best = _choose(second | (size < best[1]), (x, size), best)
-        base = _choose(accepted, (x, r), base)
+        best = chosen(second | (size < best[1]), (x, size), best)
+        base = chosen(accepted, (x, r), base)
         rejected = jnp.where(accepted, 0, rejected + 1)
         slot = number % slots
-        points, residuals = _choose(
+        points, residuals = chosen(
             accepted | instructive,
             (points.at[slot].set(x), residuals.at[slot].set(r)),
             (jnp.broadcast_to(base[0], points.shape), jnp.broadcast_to(base[1], points.shape)),
@@ -158,7 +158,7 @@ class Newton(AbstractMethod):
             first = (jnp.full((), 2.0, x.dtype), x, jnp.full_like(r, jnp.inf), jnp.zeros((), int))
             _, ahead, r_ahead, _ = lax.while_loop(too_long, shorten, first)
             better = _norm(r_ahead) < _norm(r)
-            x, r = _choose(better, (ahead, r_ahead), (x, r))
+            x, r = chosen(better, (ahead, r_ahead), (x, r))
             return x, largest(r), ~better, number + 1
 
         def unfinished(carry: tuple) -> jax.Array:
@@ -323,8 +323,9 @@ def _fitted(changes: jax.Array, r: jax.Array) -> jax.Array:
     return weights / sizes
 
 
-def _choose(condition: jax.Array, new: tuple, old: tuple) -> tuple:
-    return tuple(jnp.where(condition, a, b) for a, b in zip(new, old, strict=True))
+def chosen(condition: jax.Array, new: Any, old: Any) -> Any:
+    """One pytree or the other, whole."""
+    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), new, old)
 
 
 def largest(r: jax.Array) -> jax.Array:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 
-from granum.numerics.fixed_points import Anderson, largest, within_rounding
+from granum.numerics.fixed_points import Anderson, chosen, largest, within_rounding
 
 PROBE = 0.02  # of the range, by which a parameter is moved to learn what it does
 SETTLED_TO_PROBE = 1e-6
@@ -81,15 +81,15 @@ class Seeking(eqx.Module):
         x, best, inner, sought, moved, last, number = carry
         state, at, rest, miss = x[: -self.count], x[-self.count :], r[: -self.count], -r[-self.count :]
         if state.size:
-            inner = _chosen(moved, _shifted(inner, state, rest - last), inner)
+            inner = chosen(moved, _shifted(inner, state, rest - last), inner)
             inner = self.settling.proceed(inner, rest)
         settled = largest(rest) <= self._enough(sought, state, miss)
         # what a figure misses says something once the state has settled
         size = jnp.where(settled, largest(r), 1.0 + largest(r))
-        best = _chosen(size < best[1], (x, size), best)
+        best = chosen(size < best[1], (x, size), best)
         aim = _one if self.count == 1 else _several
         onward, following = aim(sought, at, miss)
-        sought = _chosen(settled, onward, sought)
+        sought = chosen(settled, onward, sought)
         state = jnp.where(settled, state, inner[0]) if state.size else state
         x = jnp.concatenate([state, jnp.where(settled, following, at)])
         return x, best, inner, sought, settled, rest, number + 1
@@ -161,7 +161,3 @@ def _several(known: Sought, at: jax.Array, miss: jax.Array) -> tuple[Sought, jax
     lost = (stage >= count) & (jnp.all(following == place) | (halvings > MOST_HALVINGS))
     onward = known._replace(at=place, miss=left, slopes=slopes, stage=stage + 1, halvings=halvings, lost=lost)
     return onward, following
-
-
-def _chosen(condition: jax.Array, new: Any, old: Any) -> Any:
-    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), new, old)

@@ -11,10 +11,13 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
+from granum.numerics.chords import Chords
 from granum.numerics.continuation import Continuation
 from granum.numerics.fixed_points import Anderson, as_real, solve_linear, within_rounding
 from granum.numerics.implicit import converted
 from granum.numerics.seeking import Seeking
+
+Method = Anderson | Seeking | Continuation | Chords
 
 
 class Settled(NamedTuple):
@@ -34,7 +37,7 @@ def settle(
     function: Callable[[jax.Array], tuple[jax.Array, Any]],
     start: jax.Array,
     *,
-    method: Anderson | Seeking | Continuation = Anderson(),
+    method: Method = Anderson(),
     tolerance: float = 1e-10,
     max_steps: int = 200,
     known: jax.Array | None = None,
@@ -123,10 +126,16 @@ def settle(
     return Settled(x, made, converged, number.astype(int), size, lax.stop_gradient(left))
 
 
-def knowledge(method: Anderson | Seeking | Continuation, size: int) -> int:
+def knowledge(method: Method, size: int) -> int:
     """How many numbers an iteration over so many unknowns knows."""
     shapes = jax.eval_shape(method.begin, jax.ShapeDtypeStruct((size,), float))
     return 1 + sum(leaf.size for leaf in jax.tree.leaves(shapes))
+
+
+def again(method: Chords, known: jax.Array, size: int) -> jax.Array:
+    """What ``known`` of one outcome is to begin a neighbor with."""
+    begun = method.begin(jnp.zeros((size,)))
+    return _packed(method.again(_resumed(begun, known)))
 
 
 def _packed(iteration: tuple) -> jax.Array:

@@ -59,8 +59,8 @@ class Evaluator:
             "accelerator" if accelerator and not subject.batched else "batched" if subject.batched else "line"
         )
         size = min(CHUNKS[sort], 1 << max(count - 1, 0).bit_length())
-        arrays = subject.numbers()
-        one = subject.traced(inputs, outputs, left=sort == "line")
+        arrays = subject.numbers(among_many=sort == "line")
+        one = subject.traced(inputs, outputs, among_many=sort == "line")
         # one after the other in compiled code beats side by side for a line on a processor: no case waits for
         # the slowest
         many = (

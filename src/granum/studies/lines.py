@@ -187,8 +187,8 @@ class LineSubject(Subject):
     def arrays(self) -> Any:
         return self.sheet
 
-    def begin(self) -> Any:
-        return beginning(self.sheet, self.targets)
+    def begin(self, among_many: bool = False) -> Any:
+        return beginning(self.sheet, self.targets, among_many=among_many and self.rung == 0)
 
     def compute(
         self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...], begin: Any
@@ -230,7 +230,8 @@ class LineSubject(Subject):
             assert told is not None  # looked up in own_output
             return stream_figure(streams[told[0].name], told[1])
 
-        return Computed(lookup, code, beginning(line, self.targets, found))
+        among_many = self.rung == 0 and bool(begin.learned)
+        return Computed(lookup, code, beginning(line, self.targets, found, among_many=among_many))
 
     def reason(self, code: int, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> str:
         if code >= LOST:

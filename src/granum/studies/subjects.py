@@ -128,8 +128,10 @@ class Subject(abc.ABC):
         they change.
         """
 
-    def begin(self) -> Any:
-        """Where the search for a solution begins, numbers as a pytree; nothing for most."""
+    def begin(self, among_many: bool = False) -> Any:
+        """Where the search for a solution begins, numbers as a pytree; nothing for most. ``among_many``: that
+        of one of many neighbors, solved one after the other.
+        """
         return ()
 
     @abc.abstractmethod
@@ -226,21 +228,21 @@ class Subject(abc.ABC):
             own |= dict.fromkeys(self._needed(inner)) if path in self.quantities else {path: None}
         return tuple(own)
 
-    def numbers(self, begin: Any = None) -> list[Any]:
+    def numbers(self, begin: Any = None, *, among_many: bool = False) -> list[Any]:
         """The numbers of the model and of where to begin, as ``traced`` takes them."""
         model = [leaf for leaf in jax.tree.leaves(self.arrays()) if _is_number(leaf)]
-        start = jax.tree.leaves(self.begin() if begin is None else begin)
+        start = jax.tree.leaves(self.begin(among_many) if begin is None else begin)
         return [jnp.asarray(leaf, dtype=float) for leaf in (*model, *start)]
 
-    def traced(self, inputs: tuple[str, ...], outputs: tuple[str, ...], left: bool = False) -> Traced:
-        """A pure function (numbers, vector of inputs) → (vector of figures, code), and with ``left`` where
-        another case may begin.
+    def traced(self, inputs: tuple[str, ...], outputs: tuple[str, ...], among_many: bool = False) -> Traced:
+        """A pure function (numbers, vector of inputs) → (vector of figures, code), and for one ``among_many``
+        where another one may begin.
         """
 
         leaves, tree = jax.tree.flatten(self.arrays())
         moving = [_is_number(leaf) for leaf in leaves]
 
-        start = jax.tree.structure(self.begin())
+        start = jax.tree.structure(self.begin(among_many))
 
         def run(numbers: Any, vector: Any) -> tuple[Any, ...]:
             given = iter(numbers)
@@ -262,7 +264,7 @@ class Subject(abc.ABC):
             lost = ~jnp.isfinite(figures)
             bad = jnp.where(jnp.any(lost), NOT_FINITE + jnp.argmax(lost), good)
             told = figures, jnp.where(code == FINE, bad, code).astype(jnp.int32)
-            return (*told, jax.tree.leaves(found.left)) if left else told
+            return (*told, jax.tree.leaves(found.left)) if among_many else told
 
         return run
 
