@@ -44,3 +44,19 @@ def test_derivative_of_what_is_found() -> None:
     """x = a x + 1: dx/da = 1 / (1 - a)²."""
     slope = jax.grad(lambda a: found(lambda x: a * x + 1.0, [0.0], Continuation()).state[0])(0.9)
     assert float(slope) == pytest.approx(100.0, rel=1e-9)
+
+
+def test_goes_on_from_a_point_that_is_exactly_at_rest() -> None:
+    """x = x / 2 + 1 from 2: nothing is left of the residual, call after call."""
+
+    def again(known):
+        return settle(
+            lambda x: (0.5 * x + 1.0, x), jnp.array([2.0]), method=Continuation(), max_steps=60, known=known
+        )
+
+    known = None
+    for _ in range(4):
+        solution = again(known)
+        assert bool(solution.converged)
+        assert float(solution.made[0]) == 2.0
+        known = solution.known

@@ -55,7 +55,7 @@ class Continuation(eqx.Module):
         accepted = (number == 0) | (jnp.isfinite(here) & (here <= much * norm))
         smaller = size < best[1]
         best = (jnp.where(smaller, x, best[0]), jnp.where(smaller, size, best[1]))
-        growth = jnp.clip(norm / here, 0.2, 10.0)
+        growth = jnp.where(here > 0.0, jnp.clip(norm / here, 0.2, 10.0), 10.0)
         growth = jnp.where((here < NEAR) & (here < norm), 100.0, growth)
         growth = jnp.where(again | (number == 0), 1.0, growth)
         during = jnp.where(accepted, jnp.minimum(LONGEST, during * growth), jnp.minimum(1.0, 0.25 * during))

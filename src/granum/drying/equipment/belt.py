@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Area,
     Density,
@@ -39,7 +40,8 @@ class BeltDryer(LayerDryer):
     evenly over the zones.
 
     With ``alternating`` the gas enters every second zone from the other side. Without a coefficient that of
-    Geankoplis is used, and without a surface that of spheres of the solid's mean size in the layer.
+    Geankoplis is used. ``specific_surface`` is that of the pieces in a volume of layer; where a powder is
+    formed to pieces it must be given, since without it the pieces are spheres of the solid's mean size.
     """
 
     area: Area
@@ -58,6 +60,13 @@ class BeltDryer(LayerDryer):
         "inlet": Limit("gas temperature at the inlet", 323.15, 623.15, "K", TABLE),
         "capacity": Limit("water evaporated per area and hour", 6.0, 50.0, "kg/(hour*m^2)", TABLE),
         "velocity": Limit("gas velocity through the layer", 0.25, 2.5, "m/s", "keey1978"),
+        "lifted": Limit(
+            "gas pressure lost over the weight of the layer, which gas from below lifts at 1",
+            0.0,
+            1.0,
+            "dimensionless",
+            "kunii1991, ch. 3",
+        ),
     }
 
     utilities: ClassVar[Utilities] = LayerDryer.utilities | AREA
@@ -111,17 +120,21 @@ class BeltDryer(LayerDryer):
     def measured(
         self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
+        wet = self.bulk_density_dry * (1.0 + feed.moisture_dry_basis)
         return super().measured(inside, outlets, figures, feed, gas) | {
             "inlet": gas.temperature,
             "capacity": self.hourly(figures),
             "velocity": gas.gas_volume_flow / self.area,
+            "lifted": self.pressure_lost(feed, gas) / (wet * STANDARD_GRAVITY * self.layer_depth),
         }
 
     def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        """By Ergun's equation, around pieces of the surface given, else of the solid's mean size."""
         void = jnp.clip(1.0 - self.bulk_density_dry / feed.solid_density, 0.2, 0.9)
+        surface = self.specific_surface
         gradient = pressure_gradient_ergun.function(
             gas.gas_volume_flow / self.area,
-            solid_diameter(feed),
+            solid_diameter(feed) if surface is None else 6.0 * (1.0 - void) / surface,
             void,
             gas.gas_density,
             gas.gas_viscosity,
