@@ -20,3 +20,11 @@ def test_line_is_solved_closes_and_meets_its_specifications(path: Path) -> None:
     for target in line.targets:
         assert run.figure(target.so_that) == pytest.approx(target.equals, rel=1e-8)
         assert target.lower <= run.found[target.vary] <= target.upper
+
+
+@pytest.mark.long
+def test_wanted_moisture_that_a_dryer_cannot_leave_is_out_of_reach() -> None:
+    """A belt four times as large dries below 1 % with the coolest gas; on the way there it has no answer."""
+    line = gr.read(LINES[0].with_name("china-clay.toml")).with_values(**{"dryer.area": 60.0})
+    with pytest.raises(gr.core.errors.ConvergenceError, match=r"out of reach: it is 0\.2.* % at air_heater"):
+        line.solve()

@@ -157,8 +157,9 @@ def climb(
         wrong = [Fault("stopped", "", "", _stopped(watch)), *wrong]
     if wrong and wrong[0].kind == "target":
         wrong = [wrong[0]._replace(message=_unmet(sheet, targets))]
-    elif wrong and wrong[0].kind == "loop" and targets and (told := _out_of_reach(sheet, targets)):
-        wrong = [Fault("target", "", "", told)]  # the loop does not rest because it is led out of its limits
+    elif wrong and wrong[0].kind in ("loop", "no value") and (told := _out_of_reach(sheet, targets)):
+        # the loop does not rest, or a unit has no answer, because it is led out of its limits
+        wrong = [Fault("target", "", "", told)]
     return found, wrong
 
 
@@ -305,6 +306,8 @@ def _out_of_reach(sheet: Flowsheet, targets: tuple[Target, ...]) -> str:
     """Which result cannot be had between the limits, in words; empty where each can be had by itself."""
     for t in targets:
         low, high = _reach(sheet, t)
+        least = 1e-9 * max(abs(low), abs(high), abs(t.equals))  # what is less is rounding
+        low, high = (0.0 if abs(x) < least else x for x in (low, high))
         figure, lower, upper = _shown(sheet, t)
         if np.isfinite(low) and np.isclose(low, high, rtol=1e-9):
             return _(
