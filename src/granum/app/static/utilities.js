@@ -1,7 +1,7 @@
 // What a solved line takes from outside: power, heat, cold and materials by unit and carrier, and in all.
 import { html, t, useEffect, useRef } from './core.js';
 import { pretty } from './line_forms.js';
-import { Quantity } from './quantity.js';
+import { Quantity, settled } from './quantity.js';
 
 /** `prices`: fields of what may be bought, `build` the step that writes one into the case. */
 export function Utilities({ table, prices = [], build }) {
@@ -28,9 +28,9 @@ function Price({ row, build }) {
     typed.current = row.value;
   }, [row.value]);
   const settle = () =>
-    setTimeout(() => {
+    settled().then(() => {
       if (typed.current !== row.value) build('set_price', { carrier: row.name, price: typed.current });
-    }, 150);
+    });
   return html`<div onfocusout=${settle}><${Quantity} p=${row} id=${'price-' + row.name} text=${row.value} label=${row.label} onChange=${(value) => {
     typed.current = value;
   }} /></div>`;
