@@ -17,13 +17,16 @@ LEAST = 1e-9  # of the largest of its sort in the line, below which nothing is t
 
 
 class UtilityRow(NamedTuple):
-    """One utility of one unit: whether the line counts it, and where its relation stands."""
+    """One utility of one unit: whether the line counts it, where its relation stands, and what it costs;
+    nothing where it has no price.
+    """
 
     unit: str
     label: str
     text: str
     counted: bool
     source: str
+    cost: str
 
 
 class UtilityTable(NamedTuple):
@@ -37,6 +40,7 @@ class UtilityTable(NamedTuple):
     headline: tuple[str, str]
     product: str
     taken: list[str]
+    priced: bool
 
 
 def carrier_label(name: str) -> str:
@@ -60,7 +64,7 @@ def utility_table(run: Any) -> UtilityTable:
     for _unit, p, value, _counted, _source in found:
         largest[sort_of(p.name)] = max(largest.get(sort_of(p.name), 0.0), value)
     rows = [
-        UtilityRow(unit, p.label, value_text(value, p), told, cite(source))
+        UtilityRow(unit, p.label, value_text(value, p), told, cite(source), _cost(run, p.name, value, told))
         for unit, p, value, told, source in found
         if value > LEAST * largest[sort_of(p.name)]
     ]
@@ -74,7 +78,16 @@ def utility_table(run: Any) -> UtilityTable:
     told = (taken[name] for name in ("energy_per_water", "energy_per_product") if name in taken)
     bought = [n for n, value in run.carriers.items() if value > LEAST * largest[sort_of(kinds[n].name)]]
     totals = [*taken.values(), *_costs(run, bought)]
-    return UtilityTable(rows, carriers, totals, next(told, ("", "")), run.product, bought)
+    headline = next(told, ("", ""))
+    return UtilityTable(rows, carriers, totals, headline, run.product, bought, any(r.cost for r in rows))
+
+
+def _cost(run: Any, name: str, value: float, counted: bool) -> str:
+    """What a unit pays for one utility."""
+    of = carrier(name)
+    if not counted or of not in run.line.prices:
+        return ""
+    return show(run.paid(of, value), KINDS["CostRate"], "USD/hour")
 
 
 def _costs(run: Any, bought: list[str]) -> list[tuple[str, str]]:

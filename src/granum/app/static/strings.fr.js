@@ -157,6 +157,7 @@ export const french = {
   'The conditions of the example were taken out: give those of your test.':
     'Les conditions de l’exemple ont été retirées : donnez celles de votre essai.',
   'parameter': 'paramètre',
+  'cost': 'coût',
   'value': 'valeur',
   'standard error': 'erreur type',
   '95 % interval': 'intervalle à 95 %',
