@@ -163,3 +163,11 @@ def test_the_costs_of_the_units_are_those_of_the_line() -> None:
     assert sum(costs) == pytest.approx(3600.0 * sum(run.costs.values()), rel=1e-2)
     assert not any(row.cost for row in found.rows if not row.counted)
     assert found.priced
+
+
+def test_energy_per_mass_is_told_as_heat_and_as_electricity_are(starch) -> None:
+    """3.6 kJ/kg are 1 kWh/t."""
+    told = [text.split(" = ") for _label, text in utility_table(starch).totals if "kWh/t" in text]
+    assert told
+    for heat, electricity in told:
+        assert float(heat.split()[0]) == pytest.approx(3.6 * float(electricity.split()[0]), rel=2e-3)

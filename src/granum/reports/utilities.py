@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
 from granum.core.sources import cite
 from granum.core.units import show
 from granum.core.utilities import AREA, carrier, sort_of
@@ -74,12 +75,19 @@ def utility_table(run: Any) -> UtilityTable:
         for name, value in run.carriers.items()
         if name != ELECTRICITY_CARRIER and value > LEAST * largest[sort_of(kinds[name].name)]
     ]
-    taken = {p.name: (p.label, value_text(value, p)) for p, value in run.totals() if value != 0.0}
+    taken = {p.name: (p.label, _twofold(value, p)) for p, value in run.totals() if value != 0.0}
     told = (taken[name] for name in ("energy_per_water", "energy_per_product") if name in taken)
     bought = [n for n, value in run.carriers.items() if value > LEAST * largest[sort_of(kinds[n].name)]]
     totals = [*taken.values(), *_costs(run, bought)]
     headline = next(told, ("", ""))
     return UtilityTable(rows, carriers, totals, headline, run.product, bought, any(r.cost for r in rows))
+
+
+def _twofold(value: Any, p: Parameter) -> str:
+    """A total as a text; energy per mass as dryers are told, in kJ/kg, and as electricity is, in kWh/t."""
+    if p.kind is None or p.kind is not KINDS["SpecificEnergy"]:
+        return value_text(value, p)
+    return " = ".join(show(float(value), p.kind, unit) for unit in ("kJ/kg", "kWh/tonne"))
 
 
 def _cost(run: Any, name: str, value: float, counted: bool) -> str:
