@@ -98,6 +98,9 @@ def test_prices_are_typed_and_the_costs_stand_in_the_table(page: Page, language:
     page.browser.execute_script("document.querySelector('[data-utilities]').open = true")
     table = page.one("[data-utilities]").text
     assert "USD/h" in table
+    assert [cell.text for cell in page.all(f"[data-cost='{unit}']") if "USD/h" in cell.text], (
+        "what the unit pays"
+    )
     assert "USD/t" in table
     page.check()
 

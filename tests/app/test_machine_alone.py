@@ -79,3 +79,17 @@ def test_a_study_of_a_machine_alone_needs_no_file(kind: str, address: str) -> No
             found = client.get(f"/api/studies/{job}").json()
         assert found["state"] == "done", found
         assert found["outcome"]["counts"]["failed"] == 0
+
+
+@pytest.mark.parametrize(
+    ("machine", "language"), [("drying.fluidized_bed_dryer", "fr"), ("centrifuges.peeler", "en")]
+)
+def test_the_streams_of_a_machine_alone_fit_beside_its_form(page: Page, machine: str, language: str) -> None:
+    page.open(f"calculate/{machine}", language, width=1280)
+    page.one("[data-figure]")
+    table = page.one("[data-streams] table")
+    cut = "const box = arguments[0].parentElement; return box.scrollWidth - box.clientWidth"
+    assert page.browser.execute_script(cut, table) <= 0
+    heads = [e.text for e in page.all("[data-streams] tbody th")]
+    assert any(head.startswith("T /") for head in heads), heads
+    page.check()

@@ -10,8 +10,10 @@ from typing import Any
 import httpx
 import pytest
 
+from granum.app.finding import found
 from granum.app.reading import as_html
 from granum.app.shipped import examples, pages
+from granum.core.i18n import language
 from granum.core.index import entries
 
 
@@ -42,6 +44,54 @@ def test_every_kind_is_found(client: Any, asked: str, language: str, sort: str, 
         hit["sort"] == sort and hit["key"] == key for hit in hits[:3]
     ), hits[:3]
     assert all(hit["title"] for hit in hits)
+
+
+FRENCH = """
+porosité: porous.void_fraction_from_mass · essorage: filtration.deliquoring_curve
+u_mf: fluidization.minimum_fluidization_velocity_wen_yu · d32: particles.size_summary
+P80: particles.percentile_diameter · SVI: settling.sludge_volume_index
+TDH: fluidization.disengaging_height_amitin · Richardson-Zaki: particles.richardson_zaki
+gâteau: filtration.cake_thickness · sechage: drying.choose · filtre-presse: filtration.plate_and_frame_press
+hydrocyclone: cyclones.hydrocyclone · perte de charge: porous.pressure_gradient_ergun
+resistance du gateau: filtration.leaf_test · membrane: filtration.ultrafiltration
+vitesse terminale: particles.terminal_velocity · bulbe humide: humid_gas.wet_bulb_temperature
+sédimentation: settling.batch_test · décantation: settling.batch_test · épaississeur: settling.thickener
+granulométrie: particles.sieve_analysis · tamis: particles.sieve_analysis
+floculation: settling.jar_test · essoreuse: centrifuges.peeler
+point de rosée: humid_gas.dew_point_temperature
+isotherme de sorption: drying.isotherm · eau liée: drying.kinds_of_water
+électrofiltre: dust.electrostatic_precipitator
+"""
+ENGLISH = """
+voidage: porous.void_fraction_from_mass · umf: fluidization.minimum_fluidization_velocity_wen_yu
+drying: drying.choose · pressure drop: porous.pressure_gradient_ergun · cake resistance: filtration.leaf_test
+membrane: filtration.ultrafiltration · sieve: particles.sieve_analysis · settling: settling.batch_test
+flocculation: settling.jar_test · ESP: dust.electrostatic_precipitator
+dead-end filtration: filtration.leaf_test
+drag coefficient: particles.drag_coefficient_haider_levenspiel · work index: comminution.work_index
+Ergun: porous.pressure_gradient_ergun · thickener: settling.thickener
+dew point: humid_gas.dew_point_temperature
+filter press: filtration.plate_and_frame_press · hopper: conveying.mass_flow_beverloo
+Reynolds: particles.reynolds_number · MSMPR: crystallization.msmpr · bag filter: dust.bag_filter
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "asked", "key"),
+    [
+        (code, *pair.strip().rsplit(": ", 1))
+        for code, text in (("fr", FRENCH), ("en", ENGLISH))
+        for pair in text.replace("\n", " · ").split(" · ")
+        if pair.strip()
+    ],
+)
+def test_a_word_of_the_field_finds_what_is_meant_among_the_first_three(
+    code: str, asked: str, key: str
+) -> None:
+    """Words as students and engineers type them: with and without accents, symbols, short forms."""
+    with language(code):
+        first = [hit["key"] for hit in found(asked, 3)]
+    assert key in first, first
 
 
 def test_titles_are_in_the_language_of_the_page(client: Any) -> None:

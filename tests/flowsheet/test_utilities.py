@@ -10,9 +10,11 @@ import pytest
 from tests.sharing.places import EXAMPLES
 
 import granum as gr
+from granum.cases.reading import read_text
 from granum.core.errors import InputError
 from granum.costs.formulas.emissions import emission_factor
 from granum.flowsheet import Flowsheet
+from granum.reports.utilities import utility_table
 from granum.streams.equipment.basics import Heater
 from granum.streams.equipment.movers import Fan, Pump
 from granum.streams.from_materials import mixture_of
@@ -149,3 +151,23 @@ def test_what_a_line_pays(starch) -> None:
         starch.utility_cost({"electricity": "0.10 USD/kWh"})
     with pytest.raises(InputError, match="steam"):
         starch.utility_cost(prices | {"steam": "1 USD/MWh"})
+
+
+def test_the_costs_of_the_units_are_those_of_the_line() -> None:
+    """By hand: 1 MW at 30 USD/MWh is 30 USD/h; what other units give costs nothing."""
+    priced = '\n[prices]\nelectricity = "0.10 USD/kWh"\nmedium_pressure_steam = "30 USD/MWh"\n'
+    run = read_text(STARCH.read_text(encoding="utf-8") + priced).solve()
+    assert 3600.0 * run.paid("medium_pressure_steam", 1e6) == pytest.approx(30.0, rel=1e-12)
+    found = utility_table(run)
+    costs = [float(row.cost.split()[0]) for row in found.rows if row.cost]
+    assert sum(costs) == pytest.approx(3600.0 * sum(run.costs.values()), rel=1e-2)
+    assert not any(row.cost for row in found.rows if not row.counted)
+    assert found.priced
+
+
+def test_energy_per_mass_is_told_as_heat_and_as_electricity_are(starch) -> None:
+    """3.6 kJ/kg are 1 kWh/t."""
+    told = [text.split(" = ") for _label, text in utility_table(starch).totals if "kWh/t" in text]
+    assert told
+    for heat, electricity in told:
+        assert float(heat.split()[0]) == pytest.approx(3.6 * float(electricity.split()[0]), rel=2e-3)

@@ -11,6 +11,7 @@ import pytest
 from tests.sharing.places import EXAMPLES
 
 import granum as gr
+from granum.cases.outline import pretty
 from granum.core.errors import InputError
 from granum.core.i18n import language
 from granum.reports.html import line_report
@@ -90,3 +91,13 @@ def test_figure_has_all_flows(spray) -> None:
     link = sankey(spray, "water").data[0].link
     assert len(link.value) == len(flows(spray, "water"))
     assert np.sum(link.value) > 0.0
+
+
+def test_units_and_streams_are_named_as_the_page_names_them(spray) -> None:
+    (mass, *_others) = diagrams(spray, str.upper)
+    labels = [name for part in ("node", "link") for name in mass["figure"]["data"][0][part]["label"]]
+    assert labels
+    assert all(name == name.upper() for name in labels)
+    with language("fr"):
+        assert pretty("cyclones.gas_inlet").startswith("cyclones · ")
+        assert pretty("dryer.vapor") == "dryer · vapeur"

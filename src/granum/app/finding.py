@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 
 from granum.app import exercises
@@ -15,6 +17,7 @@ from granum.core.search import DOMAIN, GIVES, NAME, TEXT, TITLE, Document, Finde
 SHOWN = 40  # hits
 BEHIND = 0.9  # what is not a card itself
 FOREIGN = 0.75  # a page in the other language
+TAUGHT = 1.05  # of several laws for one thing, one that is learnt
 
 
 def _lines() -> Iterator[Document]:
@@ -60,9 +63,20 @@ def _pages(code: str) -> Iterator[Document]:
         yield document("page", name, [*said, (TEXT, found.text[:2000])], worth)
 
 
+def _taught() -> set[str]:
+    """Cards of several for one thing that an exercise asks for."""
+    families = Counter(card.family for card in entries().values() if card.family)
+    asked = {
+        step["card"] for one in exercises.declared()["exercise"] for step in one["steps"] if "card" in step
+    }
+    return {key for key in asked if families[entries()[key].family] > 1}
+
+
 @cache
 def _finder(code: str) -> Finder:
-    return Finder([*card_documents(), *_lines(), *_exercises(), *_pages(code)])
+    taught = _taught()
+    cards = (replace(one, worth=one.worth * TAUGHT) if one.key in taught else one for one in card_documents())
+    return Finder([*cards, *_lines(), *_exercises(), *_pages(code)])
 
 
 def _told(kind: str, key: str) -> dict[str, str]:

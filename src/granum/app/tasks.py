@@ -19,6 +19,7 @@ from granum.app.spread import spread
 from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
+from granum.cases.outline import pretty
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.conversion import Binder
@@ -281,7 +282,7 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
             "diagram": outcome.drawing(),
             "stream_table": stream_sheet(outcome),
             "utility_table": utility_table(outcome),
-            "sankey": diagrams(outcome) if len(outcome.units) > 1 else [],
+            "sankey": diagrams(outcome, pretty) if len(outcome.units) > 1 else [],
             "found": found_rows(outcome),
         }
     )

@@ -269,8 +269,11 @@ class Run:
     @cached_property
     def costs(self) -> dict[str, float]:
         """What the line pays for each carrier and material that has a price, USD/s."""
-        taken, prices = self.carriers, self.line.prices
-        return {n: cost_rate({n: x}, {n: prices[n]}) for n, x in taken.items() if n in prices}
+        return {n: self.paid(n, x) for n, x in self.carriers.items() if n in self.line.prices}
+
+    def paid(self, name: str, value: float) -> float:
+        """What a flow of one carrier (W) or material (kg/s) costs at its price of the case, USD/s."""
+        return cost_rate({name: value}, {name: self.line.prices[name]})
 
     @cached_property
     def product(self) -> str:

@@ -5,6 +5,7 @@ energy.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -120,22 +121,28 @@ def titled(of: str) -> str:
     return titles.get(of) or _("Flow of {component}").format(component=session().label(of))
 
 
-def diagrams(run: Any) -> list[dict[str, Any]]:
-    """Every diagram of a line for the page."""
+def _plain(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def diagrams(run: Any, named: Callable[[str], str] = _plain) -> list[dict[str, Any]]:
+    """Every diagram of a line for the page; ``named`` says units and streams in words."""
     words = {MASS: _("mass"), ENERGY: _("energy")}
     return [
         {
             "name": of,
             "label": words.get(of) or session().label(of),
             "title": titled(of),
-            "figure": json.loads(sankey(run, of).to_json()),
+            "figure": json.loads(sankey(run, of, named).to_json()),
         }
         for of in subjects(run)
     ]
 
 
-def sankey(run: Any, of: str = MASS) -> Any:
-    """The diagram as a Plotly figure: widths in kg/h or kW, in the colors of the phases."""
+def sankey(run: Any, of: str = MASS, named: Callable[[str], str] = _plain) -> Any:
+    """The diagram as a Plotly figure: widths in kg/h or kW, in the colors of the phases; ``named`` says units
+    and streams in words.
+    """
     import plotly.graph_objects as go
 
     found = flows(run, of)
@@ -150,7 +157,7 @@ def sankey(run: Any, of: str = MASS) -> Any:
             valuesuffix=" " + pretty_unit(unit),
             textfont={"color": charts.INK, "size": 12},
             node={
-                "label": [node.strip("> ").replace("_", " ") for node in nodes],
+                "label": [named(node.strip("> ")) for node in nodes],
                 "color": [charts.INK if node in run.sheet.units else charts.OUTSIDE for node in nodes],
                 "line": {"width": 0},
                 "pad": 22,
@@ -162,7 +169,7 @@ def sankey(run: Any, of: str = MASS) -> Any:
                 "target": [nodes.index(flow.target) for flow in found],
                 "value": from_si(values, unit, kind) if len(values) else [],
                 "color": [charts.faded(COLORS[flow.phase]) for flow in found],
-                "label": [flow.name.replace("_", " ") for flow in found],
+                "label": [named(flow.name) for flow in found],
                 "hovertemplate": "%{label}: %{value}<extra></extra>",
             },
         )

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
 from granum.core.sources import cite
 from granum.core.units import show
 from granum.core.utilities import AREA, carrier, sort_of
@@ -17,13 +18,16 @@ LEAST = 1e-9  # of the largest of its sort in the line, below which nothing is t
 
 
 class UtilityRow(NamedTuple):
-    """One utility of one unit: whether the line counts it, and where its relation stands."""
+    """One utility of one unit: whether the line counts it, where its relation stands, and what it costs;
+    nothing where it has no price.
+    """
 
     unit: str
     label: str
     text: str
     counted: bool
     source: str
+    cost: str
 
 
 class UtilityTable(NamedTuple):
@@ -37,6 +41,7 @@ class UtilityTable(NamedTuple):
     headline: tuple[str, str]
     product: str
     taken: list[str]
+    priced: bool
 
 
 def carrier_label(name: str) -> str:
@@ -60,7 +65,7 @@ def utility_table(run: Any) -> UtilityTable:
     for _unit, p, value, _counted, _source in found:
         largest[sort_of(p.name)] = max(largest.get(sort_of(p.name), 0.0), value)
     rows = [
-        UtilityRow(unit, p.label, value_text(value, p), told, cite(source))
+        UtilityRow(unit, p.label, value_text(value, p), told, cite(source), _cost(run, p.name, value, told))
         for unit, p, value, told, source in found
         if value > LEAST * largest[sort_of(p.name)]
     ]
@@ -70,11 +75,27 @@ def utility_table(run: Any) -> UtilityTable:
         for name, value in run.carriers.items()
         if name != ELECTRICITY_CARRIER and value > LEAST * largest[sort_of(kinds[name].name)]
     ]
-    taken = {p.name: (p.label, value_text(value, p)) for p, value in run.totals() if value != 0.0}
+    taken = {p.name: (p.label, _twofold(value, p)) for p, value in run.totals() if value != 0.0}
     told = (taken[name] for name in ("energy_per_water", "energy_per_product") if name in taken)
     bought = [n for n, value in run.carriers.items() if value > LEAST * largest[sort_of(kinds[n].name)]]
     totals = [*taken.values(), *_costs(run, bought)]
-    return UtilityTable(rows, carriers, totals, next(told, ("", "")), run.product, bought)
+    headline = next(told, ("", ""))
+    return UtilityTable(rows, carriers, totals, headline, run.product, bought, any(r.cost for r in rows))
+
+
+def _twofold(value: Any, p: Parameter) -> str:
+    """A total as a text; energy per mass as dryers are told, in kJ/kg, and as electricity is, in kWh/t."""
+    if p.kind is None or p.kind is not KINDS["SpecificEnergy"]:
+        return value_text(value, p)
+    return " = ".join(show(float(value), p.kind, unit) for unit in ("kJ/kg", "kWh/tonne"))
+
+
+def _cost(run: Any, name: str, value: float, counted: bool) -> str:
+    """What a unit pays for one utility."""
+    of = carrier(name)
+    if not counted or of not in run.line.prices:
+        return ""
+    return show(run.paid(of, value), KINDS["CostRate"], "USD/hour")
 
 
 def _costs(run: Any, bought: list[str]) -> list[tuple[str, str]]:

@@ -48,26 +48,29 @@ function Work({ card, given }) {
     [text],
     0,
   );
-  const set = (name, value) => {
-    // what is typed in one field in one go is one step back
-    if (edited.current !== name) setPast([...past.slice(-50), values]);
-    edited.current = name;
-    setValues({ ...values, [name]: value });
+  const set = (name, value, understood) => {
+    // what is typed in one field in one go is one step back; that it was understood is none
+    if (!understood) {
+      if (edited.current !== name) setPast([...past.slice(-50), values]);
+      edited.current = name;
+    }
+    setValues((before) => ({ ...before, [name]: value }));
   };
   const problem = form.error || answer.error;
   const busy = form.pending || answer.pending;
   const wrong = problem?.details?.name;
   const field = (p) =>
-    html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
+    html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
   const needed = form.data?.parameters.filter((p) => p.required || form.data.values[p.name] !== undefined);
   const more = form.data?.parameters.filter((p) => !needed.includes(p));
   /** The machine as a line of its own, handed to another page. */
   const handTo = (page) => async (e) => {
     e.preventDefault();
     if (!text) return;
+    const { case: now } = form.pending ? await ask(`/api/alone/${card.card}`, values) : form.data;
     const place = `computer:${card.card.split('.')[1]}.toml`;
-    keepDraft(place, text);
-    location.hash = link(page, place, { case: await packed(text) });
+    keepDraft(place, now);
+    location.hash = link(page, place, { case: await packed(now) });
   };
   return html`<section aria-label=${t('Enter')} aria-busy=${String(!form.data && !form.error)}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       ${
@@ -113,7 +116,7 @@ function Outcome({ data, form, text }) {
     <div class=${failed.length || data.flags.length ? 'caution' : 'ok'} data-belief=${failed.length || data.flags.length ? 'caution' : 'ok'}>${data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`)}${failed.map((c) => html`<p class="mark">▲ ${c.name}: ${c.text} (${c.allowed})</p>`)}
       ${!failed.length && !data.flags.length && html`<p class="mark">● ${t('within its practical limits')}</p>`}</div>
     ${unit.checks.length > 0 && html`<details open><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${unit.checks.map((c) => html`<tr class=${c.ok ? '' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.text}</td><td class="dim">${c.allowed}</td></tr>`)}</tbody></table></div></details>`}
-    <${StreamTable} table=${data.stream_table} text=${text} labels=${ports(data.stream_table.rows, form?.ports)} />
+    <${StreamTable} turned table=${data.stream_table} text=${text} labels=${ports(data.stream_table.rows, form?.ports)} />
     <${Utilities} table=${data.utility_table} />
     <p class="small dim">${data.audit.text}</p>
     ${

@@ -72,10 +72,12 @@ function Work({ page, card, given }) {
     0,
   );
   const [laws, setLaws] = useState(false); // whether those of others are open: kept while a field is empty and no result stands
-  const set = (next, name = '') => {
-    // what is typed in one field in one go is one step back
-    if (!name || edited.current !== name) setPast([...past.slice(-50), values]);
-    edited.current = name;
+  const set = (next, name = '', understood = false) => {
+    // what is typed in one field in one go is one step back; that it was understood is none
+    if (!understood) {
+      if (!name || edited.current !== name) setPast([...past.slice(-50), values]);
+      edited.current = name;
+    }
     setValues(next);
   };
   const [sought, setSought] = useState(null);
@@ -139,9 +141,9 @@ function Work({ page, card, given }) {
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <form onSubmit=${(e) => e.preventDefault()} onfocusout=${() => {
         edited.current = '';
-      }}><${Fields} card=${card} all=${inForm} values=${values} onChange=${(p, text) => {
-        if (p.name === sought?.name) setSought(null);
-        set(changed(values, p, text), p.name);
+      }}><${Fields} card=${card} all=${inForm} values=${values} onChange=${(p, text, understood) => {
+        if (p.name === sought?.name && !understood) setSought(null);
+        set((before) => changed(before, p, text), p.name, understood);
       }} aside=${finder} wrong=${wrong} error=${answer.error?.message} /></form>
       <div class="row"><button class="button" disabled=${!past.length} onClick=${() => {
         edited.current = '';

@@ -23,7 +23,7 @@ export function Fields({ card, all, values, onChange, wrong, error, aside }) {
   });
   const [open, setOpen] = useState(false);
   const field = (p) =>
-    html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => onChange(p, text)} problem=${wrong === p ? error : ''} aside=${aside?.(p)} />`;
+    html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text, understood) => onChange(p, text, understood)} problem=${wrong === p ? error : ''} aside=${aside?.(p)} />`;
   const rest = all.filter((p) => folded.has(p.name));
   return html`<div class="fields">${all.filter((p) => !folded.has(p.name)).map(field)}</div>
     ${rest.length > 0 && html`<details class="more" open=${open || rest.includes(wrong)} onToggle=${(e) => setOpen(e.target.open)}><summary>${t('More ({count})', { count: rest.length })}</summary><div class="fields">${rest.map(field)}</div></details>`}`;

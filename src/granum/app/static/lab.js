@@ -11,6 +11,7 @@ import {
   settings,
   replaceLink,
   useEffect,
+  useRef,
   download,
   Working,
 } from './core.js';
@@ -53,6 +54,12 @@ function Test({ card, given }) {
   const [told, setTold] = useKept('told ' + card.card, '');
   const [trial, setTrial] = useKept('trial ' + card.card, null);
   const [over, setOver] = useState(false);
+  const [turn, setTurn] = useState(0); // of what is asked: that a text was understood asks nothing new
+  const dropped = useRef(0);
+  const give = (next) => {
+    setTurn((before) => before + 1);
+    setValues(next);
+  };
   useEffect(() => {
     replaceLink('lab', card.card, values);
     remember('conditions ' + card.card, values);
@@ -66,35 +73,41 @@ function Test({ card, given }) {
       form.append('conditions', JSON.stringify(values));
       return ask(`/api/fit/${card.card}`, form, { signal });
     },
-    [table, JSON.stringify(values)],
+    [table, turn],
     250,
   );
   const take = async (list) => {
     if (!list?.length) return;
+    const mine = ++dropped.current;
     const form = new FormData();
     form.append('file', list[0]);
     try {
       const { text } = await ask('/api/table', form);
+      if (dropped.current !== mine) return; // another table came meanwhile
       setTold(list[0].name);
-      own(text);
+      now.current(text);
     } catch (problem) {
-      setTold(problem.message);
+      if (dropped.current === mine) setTold(problem.message);
     }
   };
   const own = (text) => {
     // a table of one's own: what an example said of its test does not hold for it
+    dropped.current += 1;
     if (trial) {
-      setValues(
-        Object.fromEntries(Object.entries(values).filter(([name, value]) => trial.values[name] !== value)),
+      give((before) =>
+        Object.fromEntries(Object.entries(before).filter(([name, value]) => trial.values[name] !== value)),
       );
       setTrial(null);
       setTold(t('The conditions of the example were taken out: give those of your test.'));
     }
     setTable(text);
   };
+  const now = useRef(own);
+  now.current = own;
   const tryIt = () => {
+    dropped.current += 1;
     setTable(card.trial.table);
-    setValues(card.trial.values);
+    give(card.trial.values);
     setTrial(card.trial);
     setTold('');
   };
@@ -123,7 +136,7 @@ function Test({ card, given }) {
       <${Columns} columns=${columns} table=${table} change=${setTable} />
       <${Rows} table=${table} change=${setTable} />
       <p class="small dim">${t('The first line names the columns with their units:')} <code>${example}</code></p>
-      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${fields(card, shown).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues(changed(values, p, text))} problem=${wrong?.name === p.name ? answer.error.message : ''} />`)}</form></section>
+      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${fields(card, shown).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text, understood) => (understood ? setValues : give)((before) => changed(before, p, text))} problem=${wrong?.name === p.name ? answer.error.message : ''} />`)}</form></section>
     <section aria-label=${t('Believe')} aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
       ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />

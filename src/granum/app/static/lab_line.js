@@ -22,20 +22,26 @@ export function UseInLine({ data, values, table }) {
   const estimates = Object.keys(data.parameters);
   const caseOf = () => caseAt(place, place === opened.place ? opened.carried : '');
   useEffect(() => {
-    if (!place) return;
+    if (!place) return undefined;
+    let asked = true;
     setTold(null);
+    setUnit('');
     caseOf()
       .then(({ text }) => ask('/api/case/form', { case: text }))
       .then(
         (form) => {
+          if (!asked) return; // another line was chosen meanwhile
           const fit = Object.entries(form.units).filter(([, item]) =>
             item.parameters.some((p) => estimates.includes(p.name)),
           );
           setUnits(fit);
           setUnit(fit[0]?.[0] || '');
         },
-        (problem) => setTold({ problem: problem.message }),
+        (problem) => asked && setTold({ problem: problem.message }),
       );
+    return () => {
+      asked = false;
+    };
   }, [place, estimates.join(' ')]);
   const use = async () => {
     try {
@@ -54,7 +60,7 @@ export function UseInLine({ data, values, table }) {
       };
       const found = await ask('/api/case/build', { case: text, operation: 'use_fit', arguments: given });
       keepDraft(place, found.case);
-      setTold({ link: link('lines', place, { case: await packed(found.case) }) });
+      setTold({ place, link: link('lines', place, { case: await packed(found.case) }) });
     } catch (problem) {
       setTold({ problem: problem.message });
     }
@@ -67,6 +73,6 @@ export function UseInLine({ data, values, table }) {
       ${units?.length === 0 && html`<p class="small dim">${t('No equipment of {line} takes what this test gives.', { line: shortly(place) })}</p>`}
       <button class="button" disabled=${!unit} onClick=${use}>${t('Use in the line')}</button> <span class="small dim">${t('Data and conditions go into the line with it, and the uncertainty stays known.')}</span>
       ${told?.problem && html`<p class="message out" role="alert">${told.problem}</p>`}
-      ${told?.link && html`<p class="ok" role="status">● ${t('Used in {line}.', { line: shortly(place) })} <a href=${told.link}>${t('Open the line')}</a></p>`}`
+      ${told?.link && html`<p class="ok" role="status">● ${t('Used in {line}.', { line: shortly(told.place) })} <a href=${told.link}>${t('Open the line')}</a></p>`}`
   }</section>`;
 }

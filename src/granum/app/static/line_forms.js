@@ -25,12 +25,13 @@ export function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'f
       ),
     [JSON.stringify(item.values)],
   );
-  const set = (key, value) => {
+  const set = (key, value, understood) => {
+    if (understood && !typedIn.waits(table, name, key)) return; // it stands in the case already, as it was typed
     setTyped((before) => ({ ...before, [key]: value }));
     typedIn.later(table, name, key, value);
   };
   if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
-  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}
+  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name ? message : ''} />`)}
     ${item.limits?.length > 0 && html`<details data-limits=${name}><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${item.limits.map((limit) => html`<tr><td>${limit.name}</td><td>${limit.allowed}</td><td class="dim">${limit.source}</td></tr>`)}</tbody></table></div></details>`}</form>`;
 }
 

@@ -67,10 +67,13 @@ export function Specifications({ form, build }) {
   const amount = (id, text, p, word) =>
     html`<div class="end"><label for=${id}>${text}</label><div class="entry"><${Quantity} key=${id + p.name} p=${{ ...p, name: word }} id=${id} text=${draft[word]} label=${text} onChange=${(value) => set({ [word]: value })} /></div></div>`;
   const whole = input && figure && draft.equals && draft.lower && draft.upper;
+  const [adding, setAdding] = useState(false);
   const add = async () => {
     const { vary, of, so_that, equals, lower, upper } = draft;
-    if (await build('set_specification', { vary, so_that: `${of}.${so_that}`, equals, lower, upper }))
-      setDraft(NOTHING);
+    setAdding(true);
+    const made = await build('set_specification', { vary, so_that: `${of}.${so_that}`, equals, lower, upper });
+    setAdding(false);
+    if (made) setDraft((before) => (before.vary === vary && before.of === of ? NOTHING : before));
   };
   return html`<details data-specifications><summary>${t('Design specifications')} <span class="dim">${Object.keys(form.specifications).length || ''}</span></summary>
     ${Object.entries(form.specifications).map(
@@ -97,5 +100,5 @@ export function Specifications({ form, build }) {
     }
     ${figure && amount('spec-equals', t('takes the value'), figure, 'equals')}
     ${input && html`${amount('spec-lower', t('looked for from'), input.p, 'lower')}${amount('spec-upper', t('up to'), input.p, 'upper')}<p class="small dim">${t('now {value}', { value: input.now })}</p>`}
-    <button class="button" disabled=${!whole} onClick=${add}>${t('Add the specification')}</button></div></details>`;
+    <button class="button" disabled=${!whole || adding} onClick=${add}>${t('Add the specification')}</button></div></details>`;
 }

@@ -3,7 +3,8 @@ import { html, t, ask, download, useState } from './core.js';
 import { Plot } from './plot.js';
 import { pretty } from './line_forms.js';
 
-export function StreamTable({ table, place = '', text, choose, labels }) {
+/** `turned`: a stream a column, for the few streams of one machine. */
+export function StreamTable({ table, place = '', text, choose, labels, turned = false }) {
   const [problem, setProblem] = useState('');
   const [all, setAll] = useState(false);
   const rows = all ? table.rows : table.rows.filter(([name]) => !table.empty.includes(name));
@@ -22,9 +23,14 @@ export function StreamTable({ table, place = '', text, choose, labels }) {
   };
   return html`<div class="row spread"><h2>${t('Streams')}</h2><div class="row"><button class="button" onClick=${() => take('csv')}>CSV</button><button class="button" onClick=${() => take('xlsx')}>Excel</button></div></div>
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
-    <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')} data-streams><table class="streams"><thead><tr><th scope="col">${t('stream')}</th>${table.heads.map((head) => html`<th class="n" scope="col" data-phase=${head.phase}>${head.label}<span class="dim">${head.unit}</span></th>`)}</tr></thead>
+    <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')} data-streams>${
+      turned
+        ? html`<table class="streams turned"><thead><tr><th scope="col"><span class="hidden">${t('value')}</span></th>${rows.map(([name]) => html`<th class="n" scope="col">${labels[name] || pretty(name)}</th>`)}</tr></thead>
+    <tbody>${table.heads.map((head, i) => html`<tr data-phase=${head.phase}><th scope="row">${head.label} <span class="dim">/ ${head.unit}</span></th>${rows.map(([, cells]) => html`<td class="n">${cells[i]}</td>`)}</tr>`)}</tbody></table>`
+        : html`<table class="streams"><thead><tr><th scope="col">${t('stream')}</th>${table.heads.map((head) => html`<th class="n" scope="col" data-phase=${head.phase}>${head.label}<span class="dim">${head.unit}</span></th>`)}</tr></thead>
     <tbody>${rows.map(([name, cells]) => html`<tr><th scope="row">${choose ? html`<button class="name" onClick=${() => choose({ sort: 'stream', name })}>${labels[name] || pretty(name)}</button>` : labels[name] || pretty(name)}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}</tr>`)}
-    ${table.sums.map(([label, cells]) => html`<tr class="sum"><th scope="row">${label}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}${table.heads.slice(cells.length).map(() => html`<td></td>`)}</tr>`)}</tbody></table></div>
+    ${table.sums.map(([label, cells]) => html`<tr class="sum"><th scope="row">${label}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}${table.heads.slice(cells.length).map(() => html`<td></td>`)}</tr>`)}</tbody></table>`
+    }</div>
     ${
       table.empty.length > 0 &&
       html`<p class="small"><button class="link" data-empty aria-expanded=${String(all)} onClick=${() => setAll(!all)}>${

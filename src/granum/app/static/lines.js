@@ -200,7 +200,7 @@ export function Lines({ state }) {
   const edit = async (table, name, key, value) => {
     try {
       const found = await ask('/api/case/edit', { case: latest.current, table, name, key, text: value });
-      setTyping(false);
+      setTyping(due.current.size > 0); // somebody may type in the next field by now
       await change(found.case);
     } catch (problem) {
       setError(problem);

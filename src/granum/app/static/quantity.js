@@ -105,6 +105,14 @@ const released = () =>
     else done();
   });
 
+const underway = new Set();
+const tracked = (work) => {
+  const known = work.catch(() => {}).finally(() => underway.delete(known)); // not read: the text stays as it was typed
+  underway.add(known);
+};
+/** Done when every field that was left has been understood: what acts on a whole form waits for it. */
+export const settled = () => Promise.all(underway);
+
 /** The text that a value keeps: what was typed, with the unit of the menu where none was typed. */
 function kept(typed, menu) {
   const parts = split(typed.trim());
@@ -113,7 +121,10 @@ function kept(typed, menu) {
     : joined(parts.unit || !/\p{Nd}/u.test(parts.number) ? parts : { number: parts.number, unit: menu });
 }
 
-/** `onChange` gets the text, and whether it is only what the server understood of the text it had already. */
+/**
+ * `onChange` gets the text, and whether it is only what the server understood of the text it had already: that comes late,
+ * goes to whoever holds the value then, and to nobody once the field is gone.
+ */
 export function Quantity({ p, id, note, text = '', onChange, problem, label = p.label }) {
   const given = held(text, p);
   const [typed, show] = useState(null);
@@ -121,6 +132,14 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
   const raw = useRef(null);
   const sent = useRef(text);
   const focused = useRef(false);
+  const holder = useRef(onChange);
+  holder.current = onChange;
+  useEffect(
+    () => () => {
+      raw.current = null;
+    },
+    [],
+  );
   const menu = typed === null && text ? given.unit : unit;
   const asked = typed === null ? '' : kept(typed, menu);
   const reading = useReading(p, asked);
@@ -131,7 +150,7 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
   const send = (next, understood = false) => {
     if (next !== sent.current) {
       sent.current = next;
-      onChange(next, understood);
+      holder.current(next, understood);
     }
   };
   useEffect(() => {
@@ -176,12 +195,12 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
         focused.current = true;
       }} onBlur=${() => {
         focused.current = false;
-        released().then(settle);
+        tracked(released().then(settle));
       }}
       onInput=${(e) => type(e.target.value)} onKeyDown=${(e) => {
         if (e.key === 'Enter') {
           e.preventDefault();
-          settle();
+          tracked(settle());
         }
       }} />
     ${units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>

@@ -1,6 +1,6 @@
 // The states of a process in humid gas as a small table: each by its temperature and one of humidity ratio, relative
 // humidity or wet-bulb temperature; the rest is told by the chart.
-import { html, t, ask, useState } from './core.js';
+import { html, t, ask, useRef, useState } from './core.js';
 import { inLanguage } from './quantity.js';
 
 const UNITS = { temperature: 'degC', humidity_ratio: 'g/kg' };
@@ -56,8 +56,10 @@ export function States({ values, states, figure, set }) {
     : ['', '<i>T</i> / °C', '<i>w</i> / (g/kg)', '<i>φ</i> / %', '<i>T<sub>h</sub></i> / °C'];
   const put = (next) => {
     setProblem('');
-    set(withStates(values, next));
+    now.current.set(withStates(now.current.values, next));
   };
+  const now = useRef(null);
+  now.current = { values, states, set };
   const change = async (i, column, text) => {
     const number = Number(text.trim().replace(',', '.').replace('−', '-'));
     if (!text.trim() || !Number.isFinite(number)) {
@@ -81,7 +83,7 @@ export function States({ values, states, figure, set }) {
                     : { wet_bulb_temperature: `${number} degC` },
                 ),
               ];
-      put(states.map((s, k) => (k === i ? state : s)));
+      if (now.current.states[i]) put(now.current.states.map((s, k) => (k === i ? state : s)));
     } catch (fault) {
       setProblem(fault.message);
     }

@@ -157,6 +157,9 @@ export const french = {
   'The conditions of the example were taken out: give those of your test.':
     'Les conditions de l’exemple ont été retirées : donnez celles de votre essai.',
   'parameter': 'paramètre',
+  'cost': 'coût',
+  'P10, P50, P90: a tenth, half and nine tenths of the cases lie below.':
+    'P10, P50, P90 : un dixième, la moitié et neuf dixièmes des cas sont en dessous.',
   'value': 'valeur',
   'standard error': 'erreur type',
   '95 % interval': 'intervalle à 95 %',

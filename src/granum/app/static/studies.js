@@ -8,12 +8,13 @@ import {
   useState,
   useEffect,
   useKept,
+  useRef,
   remember,
   settings,
   Working,
 } from './core.js';
 import { caseAt } from './drafts.js';
-import { Quantity, joined } from './quantity.js';
+import { Quantity, joined, settled } from './quantity.js';
 import { Outcome, showStudy, useJob } from './study_job.js';
 import { Past, usePast } from './study_history.js';
 import {
@@ -137,6 +138,15 @@ function Form({ place, head, subject, choices }) {
       location.hash = link('studies', study.place);
     }
   };
+  const [starting, setStarting] = useState(false);
+  const whole = useRef(null);
+  whole.current = { asked, setup };
+  const run = async () => {
+    setStarting(true);
+    await settled(); // the field that was left by pressing the button
+    setStarting(false);
+    job.start(whole.current.asked, question(whole.current.setup, choices), whole.current.setup);
+  };
   const now = JSON.stringify(asked);
   const old = job.outcome && (job.asked !== now || job.running || Boolean(job.error));
   const lacking =
@@ -155,7 +165,7 @@ function Form({ place, head, subject, choices }) {
     ${doubtful(kind) && html`<div class="row"><label>${t('Samples')} <input class="short" inputmode="numeric" value=${setup.samples} onInput=${(e) => set({ samples: e.target.value })} /></label></div>`}
     ${kind === 'sobol' && designed(setup) && html`<p class="small dim" data-design>${explained(designed(setup))}</p>`}`
     }
-    <div class="row"><button class="button main" disabled=${job.running || lacking} onClick=${() => job.start(asked, question(setup, choices), setup)}>${t('Run the study')}</button></div>
+    <div class="row"><button class="button main" disabled=${job.running || starting || lacking} onClick=${run}>${t('Run the study')}</button></div>
     <p class="small dim">${t('A study runs on when you leave this page or close it; after an hour it is stopped, and what it has computed is kept.')}</p>
     <${Past} past=${past} open=${open} /></section>
     <section aria-label=${t('Believe')}><${Working} busy=${job.running} cancel=${job.cancel} share=${job.share} text=${job.note || t('Working…')} />

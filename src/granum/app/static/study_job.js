@@ -160,6 +160,7 @@ export function Outcome({ data, question }) {
     <p class=${counts.failed ? 'caution' : 'ok'} data-study=${data.study}>${counts.failed ? '▲' : '●'} ${t('{run} cases, {failed} without a result', { run: counts.run, failed: counts.failed })}${data.complete ? '' : ` · ${t('stopped early')}`}</p>
     ${data.warnings.map((text) => html`<p class="small caution">${text}</p>`)}
     ${data.charts.map((c) => html`<${Plot} key=${c.name} figure=${c.figure} label=${c.figure.layout.title?.text || c.name} />`)}
+    ${data.tables.some((table) => table.columns.includes('P90')) && html`<p class="small dim" data-shares>${t('P10, P50, P90: a tenth, half and nine tenths of the cases lie below.')}</p>`}
     ${data.tables.map(
       (
         table,

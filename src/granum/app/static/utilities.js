@@ -1,16 +1,16 @@
 // What a solved line takes from outside: power, heat, cold and materials by unit and carrier, and in all.
 import { html, t, useEffect, useRef } from './core.js';
 import { pretty } from './line_forms.js';
-import { Quantity } from './quantity.js';
+import { Quantity, settled } from './quantity.js';
 
 /** `prices`: fields of what may be bought, `build` the step that writes one into the case. */
 export function Utilities({ table, prices = [], build }) {
   if (table.rows.length === 0) return null;
   const label = t('Utilities');
   return html`<details data-utilities><summary>${label} <span class="dim">${table.headline[0]} ${table.headline[1]}</span></summary>
-    <div class="wide" tabindex="0" role="region" aria-label=${label}><table><thead><tr><th scope="col">${t('unit')}</th><th scope="col">${t('utility')}</th><th class="n" scope="col">${t('value')}</th></tr></thead>
-      <tbody>${table.rows.map((row) => html`<tr class=${row.counted ? '' : 'dim'} title=${row.source}><td>${pretty(row.unit)}</td><td>${row.label}</td><td class="n">${row.counted ? row.text : `(${row.text})`}</td></tr>`)}
-      ${[...table.carriers, ...table.totals].map(([name, text], i) => html`<tr><td>${i === 0 ? t('whole line') : ''}</td><td>${name}</td><td class="n"><strong>${text}</strong></td></tr>`)}</tbody></table></div>
+    <div class="wide" tabindex="0" role="region" aria-label=${label}><table><thead><tr><th scope="col">${t('unit')}</th><th scope="col">${t('utility')}</th><th class="n" scope="col">${t('value')}</th>${table.priced && html`<th class="n" scope="col">${t('cost')}</th>`}</tr></thead>
+      <tbody>${table.rows.map((row) => html`<tr class=${row.counted ? '' : 'dim'} title=${row.source}><td>${pretty(row.unit)}</td><td>${row.label}</td><td class="n">${row.counted ? row.text : `(${row.text})`}</td>${table.priced && html`<td class="n" data-cost=${row.unit}>${row.cost}</td>`}</tr>`)}
+      ${[...table.carriers, ...table.totals].map(([name, text], i) => html`<tr><td>${i === 0 ? t('whole line') : ''}</td><td>${name}</td><td class="n"><strong>${text}</strong></td>${table.priced && html`<td></td>`}</tr>`)}</tbody></table></div>
     <p class="small dim">${t('Product: {stream}. In brackets: given by another unit of the line, and not counted.', { stream: table.product })}</p>
     ${build && html`<${Prices} rows=${prices.filter((row) => row.value || table.taken.includes(row.name))} build=${build} />`}</details>`;
 }
@@ -28,9 +28,9 @@ function Price({ row, build }) {
     typed.current = row.value;
   }, [row.value]);
   const settle = () =>
-    setTimeout(() => {
+    settled().then(() => {
       if (typed.current !== row.value) build('set_price', { carrier: row.name, price: typed.current });
-    }, 150);
+    });
   return html`<div onfocusout=${settle}><${Quantity} p=${row} id=${'price-' + row.name} text=${row.value} label=${row.label} onChange=${(value) => {
     typed.current = value;
   }} /></div>`;
