@@ -59,6 +59,10 @@ from granum.crystallization.equipment.msmpr import (
 from granum.crystallization.equipment.roles import (
     Roles as Roles,
 )
+from granum.crystallization.equipment.stirring import (
+    Stirred as Stirred,
+    Stirring as Stirring,
+)
 from granum.crystallization.equipment.two_salts import (
     Parted as Parted,
     TwoSaltCrystallizer as TwoSaltCrystallizer,

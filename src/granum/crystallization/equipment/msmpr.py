@@ -23,8 +23,11 @@ from granum.core.kinds import (
     Number,
     PositiveNumber,
     Power,
+    RotationSpeed,
+    SpecificPower,
     Temperature,
     Time,
+    Velocity,
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.in_time import Crystallized, InTime
@@ -38,12 +41,13 @@ from granum.crystallization.equipment.roles import (
     roles,
     with_crystals,
 )
+from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.kinds import Growth, Nucleation, Solubility, VesselVolume
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
-from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated, suspended
+from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated
 
 _UNSOLVED = (
     "No supersaturation was found at which the crystals made are those that the solute balance leaves: "
@@ -65,6 +69,9 @@ class CrystallizerFigures(NamedTuple):
     mass_median_size: Distance
     evaporation: MassFlow
     heat_duty: Power
+    rotation_speed_suspension: RotationSpeed
+    tip_speed: Velocity
+    specific_power_input: SpecificPower
 
 
 STEADY: Limits = {
@@ -75,7 +82,7 @@ STEADY: Limits = {
 }
 
 
-class _Continuous(Unit):
+class _Continuous(Stirred, Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
     temperature: Temperature
@@ -88,9 +95,13 @@ class _Continuous(Unit):
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
-    limits: ClassVar[Limits] = STEADY | {
-        "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
-    }
+    limits: ClassVar[Limits] = (
+        STEADY
+        | SUSPENDED
+        | {
+            "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
+        }
+    )
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
@@ -154,6 +165,7 @@ class _Continuous(Unit):
             median_of(state.crystals, feed.mixture.edges),
             jnp.asarray(state.evaporation, dtype=float),
             outlets.heat_duty,
+            *self.stirrer_figures(outlets.product, self.volume),
         )
 
     def measured(
@@ -169,7 +181,7 @@ class _Continuous(Unit):
             "present": jnp.where(inside[0].washed_out, 0.0, 1.0),
             "largest": outlets.product.size_fractions[-1],
             "drying": figures.evaporation,
-        }
+        } | self.stirrer_measured(outlets.product, self.volume)
 
     def drawn(
         self,
@@ -179,8 +191,7 @@ class _Continuous(Unit):
         feed: Stream,
     ) -> dict[str, Any]:
         duty, T = outlets.heat_duty, self.temperature
-        agitator = {"electric_power_agitator": suspended(outlets.product, self.volume)}
-        return heated(duty, T) | cooled(duty, T) | agitator
+        return heated(duty, T) | cooled(duty, T) | self.stirrer_power(outlets.product, self.volume)
 
     def _removal(self) -> Removal | None:
         """Fines dissolved and product classified; none by default."""
