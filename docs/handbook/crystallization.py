@@ -10,6 +10,9 @@ from validation import crystallization_msmpr, materials_solubility
 import granum as gr
 from granum.app.shipped import examples_folder
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
+from granum.crystallization.equipment.boiling import Boiling
+from granum.crystallization.formulas.solubility_laws import LibrarySolubility
+from granum.materials.library import session
 
 c, m, tank = gr.crystallization, gr.materials, gr.streams
 
@@ -107,6 +110,20 @@ least = float(c.temperature_difference_encrustation("5 delta_degC", "500 W/(m^2*
 jacket = duty / (500 * least)
 across = (4 * 10 / pi) ** (1 / 3)  # of a vessel of 10 m³ as high as wide
 offered = 1.25 * pi * across**2
+
+# ---- vacuum
+water = session().fluid("water")
+brine_boils = float(
+    Boiling(
+        water,
+        LibrarySolubility("sodium chloride"),
+        session().solute("sodium chloride").activity_law,
+        None,
+    ).temperature(1e4, c.VacuumCrystallizer.card)
+)
+water_boils = float(water.boiling_temperature(1e4))
+elevation = brine_boils - water_boils
+lift = float(water.vapor_pressure.value(308.15) / water.vapor_pressure.value(293.15))
 
 # ---- stirrer
 impeller_wide = across / 3

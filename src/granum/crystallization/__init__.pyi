@@ -36,6 +36,9 @@ from granum.crystallization.equipment.batch import (
     VacuumBatchFigures as VacuumBatchFigures,
     VacuumBatchOutlets as VacuumBatchOutlets,
 )
+from granum.crystallization.equipment.boiling import (
+    Boiling as Boiling,
+)
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
 )
@@ -55,6 +58,7 @@ from granum.crystallization.equipment.msmpr import (
     CrystallizerFigures as CrystallizerFigures,
     Msmpr as Msmpr,
     VacuumCrystallizer as VacuumCrystallizer,
+    VacuumFigures as VacuumFigures,
 )
 from granum.crystallization.equipment.roles import (
     Roles as Roles,
