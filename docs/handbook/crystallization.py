@@ -112,6 +112,16 @@ across = (4 * 10 / pi) ** (1 / 3)  # of a vessel of 10 m³ as high as wide
 offered = 1.25 * pi * across**2
 
 # ---- vacuum
+slope = {
+    s: float(
+        np.log(
+            m.solubility("80 degC", s).solubility_per_solvent
+            / m.solubility("20 degC", s).solubility_per_solvent
+        )
+        / 60
+    )
+    for s in ("potassium nitrate", "copper sulfate", "sodium chloride")
+}
 water = session().fluid("water")
 brine_boils = float(
     Boiling(

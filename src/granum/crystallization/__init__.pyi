@@ -16,6 +16,7 @@ from granum.crystallization.charts_salts import (
 from granum.crystallization.charts_solutions import (
     antisolvent_chart as antisolvent_chart,
     polymorph_chart as polymorph_chart,
+    solubilities_chart as solubilities_chart,
 )
 from granum.crystallization.equipment.antisolvent import (
     AntisolventCrystallizer as AntisolventCrystallizer,
