@@ -154,8 +154,8 @@ def test_the_three_salts_of_the_course_notes(solute, way, crystal_flow):
 
 
 def test_each_circumstance_turns_the_choice_and_says_why():
-    """A hazardous solvent is not boiled where a wall will do, a fouling wall gives way to vacuum, a centrifuge
-    asks for coarse crystals (course notes, I.11); in their absence none of the reasons stands there.
+    """A hazardous solvent is not boiled where a wall will do, a fouling wall gives way to vacuum, a
+    centrifuge asks for coarse crystals (course notes, I.11); without them none of the reasons stands there.
     """
     law = {"law": "library_solubility", "solute": "copper sulfate"}
 

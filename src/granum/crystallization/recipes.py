@@ -206,8 +206,8 @@ class Processes(NamedTuple):
 
 
 TONNAGE_CONTINUOUS = 10_000.0 / 86_400.0  # kg/s: 10 t/d
-# Relative change of solubility per kelvin. In the course notes potassium nitrate (2.8 %/K from 20 to 80 °C) is
-# cooled, copper sulfate (1.7 %/K) cooled under vacuum, sodium chloride (0.1 %/K) boiled down.
+# Relative change of solubility per kelvin. In the course notes potassium nitrate (2.8 %/K from 20 to 80 °C)
+# is cooled, copper sulfate (1.7 %/K) cooled under vacuum, sodium chloride (0.1 %/K) boiled down.
 STEEP, FLAT = 0.03, 0.0015
 FLASHED = 0.0015  # of the solvent that boils off per kelvin of adiabatic cooling: 3.6 over 2400 kJ/kg
 
@@ -229,8 +229,8 @@ def choose(
     solvent_hazardous: bool = False,
     downstream: Downstream = "dryer",
 ) -> Processes:
-    """Ways to crystallize by solubility slope, tonnage, fouling, hazard and quality, the best first, with what
-    speaks for and against each.
+    """Ways to crystallize by solubility slope, tonnage, fouling, hazard and quality, the best first, with
+    what speaks for and against each.
 
     Steep solubility asks for cooling, a flat one for evaporation, one in between for vacuum cooling, which
     adds the evaporation of some 0.15 % of the solvent per kelvin to an incomplete cooling crop; below about

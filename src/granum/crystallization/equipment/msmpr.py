@@ -275,7 +275,9 @@ class Msmpr(_Evaporating, InTime):
 
     The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute
     balance leaves; seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their
-    water from the solvent.
+    water from the solvent. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
+    fast enough to keep all crystals off the bottom. A viscosity that is not known counts there as that of
+    water.
     """
 
 
@@ -317,8 +319,8 @@ class VacuumCrystallizer(_Continuous, InTime):
 
     The vapor is what the enthalpy balance leaves; ``heat_duty`` adds heat from outside (zero for the
     adiabatic flash). Either the temperature is given and the pressure that must be held follows, or the other
-    way round: the saturated mother liquor boils there. The elevation is that of the library's water activity, or
-    of two coefficients over the mass fraction of solute; it counts as none at a given temperature where
+    way round: the saturated mother liquor boils there. The elevation is that of the library's water activity,
+    or of two coefficients over the mass fraction of solute; it counts as none at a given temperature where
     neither is there. Further solutes and the supersaturation do not raise it. An ejector is needed where
     cooling water condenses nothing, below 35 °C.
     """
