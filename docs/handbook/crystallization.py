@@ -10,8 +10,11 @@ from validation import crystallization_msmpr, materials_solubility
 import granum as gr
 from granum.app.shipped import examples_folder
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
+from granum.crystallization.equipment.boiling import Boiling
+from granum.crystallization.formulas.solubility_laws import LibrarySolubility
+from granum.materials.library import session
 
-c, m = gr.crystallization, gr.materials
+c, m, tank = gr.crystallization, gr.materials, gr.streams
 
 # ---- solubility
 SALTS = ("potassium nitrate", "potassium chloride", "sodium sulfate", "sodium chloride")
@@ -107,6 +110,41 @@ least = float(c.temperature_difference_encrustation("5 delta_degC", "500 W/(m^2*
 jacket = duty / (500 * least)
 across = (4 * 10 / pi) ** (1 / 3)  # of a vessel of 10 m³ as high as wide
 offered = 1.25 * pi * across**2
+
+# ---- vacuum
+slope = {
+    s: float(
+        np.log(
+            m.solubility("80 degC", s).solubility_per_solvent
+            / m.solubility("20 degC", s).solubility_per_solvent
+        )
+        / 60
+    )
+    for s in ("potassium nitrate", "copper sulfate", "sodium chloride")
+}
+water = session().fluid("water")
+brine_boils = float(
+    Boiling(
+        water,
+        LibrarySolubility("sodium chloride"),
+        session().solute("sodium chloride").activity_law,
+        None,
+    ).temperature(1e4, c.VacuumCrystallizer.card)
+)
+water_boils = float(water.boiling_temperature(1e4))
+elevation = brine_boils - water_boils
+lift = float(water.vapor_pressure.value(308.15) / water.vapor_pressure.value(293.15))
+
+# ---- stirrer
+impeller_wide = across / 3
+stirred_speed = tank.rotation_speed_zwietering(
+    impeller_wide, "400 um", "2110 kg/m^3", "1180 kg/m^3", "0.9 mPa s", 4.0
+)
+stirring = tank.stirring(stirred_speed, impeller_wide, "10 m^3", "1290 kg/m^3", "0.9 mPa s")
+film = tank.heat_transfer_coefficient_stirred(
+    stirred_speed, impeller_wide, across, "1290 kg/m^3", "0.9 mPa s", "3100 J/(kg*K)", "0.58 W/(m*K)"
+)
+scaled = tank.scale_up_stirrer("500 rpm", "0.035 m", "0.35 m")
 
 # ---- choice
 HOT_COLD = ("60 degC", "20 degC", "1 t/h")

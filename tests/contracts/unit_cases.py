@@ -566,7 +566,10 @@ def crystallizers(classes: int) -> dict[str, Case]:
         ),
         "vacuum": Cased(
             lambda f, u: VacuumCrystallizer(
-                *vessel(f, u), heat_duty=1e5 * u[5] * f["feed"].liquid[0], **laws(u)
+                temperature=vessel(f, u)[0],
+                volume=vessel(f, u)[1],
+                heat_duty=1e5 * u[5] * f["feed"].liquid[0],
+                **laws(u),
             )
         ),
         "batch": Cased(lambda f, u: BatchCrystallizer(temperature_program=cooling(f, u), **batch(u))),

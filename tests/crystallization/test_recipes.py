@@ -23,6 +23,7 @@ from tests.sharing.crystallization import (
 
 from granum.core.errors import ApplicabilityError, InputError
 from granum.crystallization.charts import size_distribution_chart, solubility_chart
+from granum.crystallization.charts_solutions import solubilities_chart
 from granum.crystallization.equipment.batch import BatchCrystallizer
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.formulas.agglomeration import agglomeration_coefficient_brownian
@@ -134,6 +135,50 @@ def test_choice_follows_the_solubility_slope():
     assert "continuous" in steep
     assert "evaporation" in flat
     assert "batch" in small
+
+
+@pytest.mark.parametrize(
+    ("solute", "way"),
+    [
+        ("potassium nitrate", "cooling through a wall"),
+        ("copper sulfate", "vacuum (adiabatic) cooling"),
+        ("sodium chloride", "evaporation"),
+    ],
+)
+@pytest.mark.parametrize("crystal_flow", [2e4 / 86400, 2e3 / 86400])
+def test_the_three_salts_of_the_course_notes(solute, way, crystal_flow):
+    """Course notes, I.7.1 and figure I.13, whatever the tonnage; continuous from 10 t/d on (I.11)."""
+    law = {"law": "library_solubility", "solute": solute}
+    best = choose(law, "80 degC", "20 degC", crystal_flow).crystallization_process[0]
+    assert best == f"{way}, {'continuous' if crystal_flow > 0.11 else 'seeded batch'}"
+
+
+def test_each_circumstance_turns_the_choice_and_says_why():
+    """A hazardous solvent is not boiled where a wall will do, a fouling wall gives way to vacuum, a
+    centrifuge asks for coarse crystals (course notes, I.11); without them none of the reasons stands there.
+    """
+    law = {"law": "library_solubility", "solute": "copper sulfate"}
+
+    def told(**more):
+        found = choose(law, "80 degC", "20 degC", "20 tonne/day", **more)
+        rows = zip(*(found[:2] + found[2:]), strict=True)
+        return {row[0]: row[1:] for row in rows}
+
+    plain, hazard = told(), told(solvent_hazardous=True)
+    vacuum, wall = "vacuum (adiabatic) cooling, continuous", "cooling through a wall, continuous"
+    oslo = "cooling through a wall, fluidized bed (Oslo), classified product"
+    assert next(iter(hazard)) == wall
+    assert hazard[vacuum][0] < plain[vacuum][0]
+    assert "hazardous" in hazard[vacuum][2]
+    assert not any("hazardous" in str(row) for row in plain.values())
+    assert "boils off 9 % of the solvent" in plain[vacuum][1]
+    fouled = told(fouling=True)
+    assert next(iter(fouled)) == vacuum
+    assert "foul" in fouled[wall][2]
+    coarse, again = told(downstream="centrifuge"), told(downstream="reaction")
+    assert coarse[oslo][0] > plain[oslo][0] > again[oslo][0]
+    assert "centrifuge" in coarse[oslo][1]
+    assert "dissolved again" in again[oslo][2]
 
 
 def test_film_model_limits():
@@ -268,3 +313,23 @@ def test_equipment_closes_its_balances(kind):
 
 def test_library_solubility_is_a_law():
     assert float(LibrarySolubility("potassium nitrate")(293.15)) == pytest.approx(0.316, rel=0.03)
+
+
+def test_several_solubility_curves_on_one_chart():
+    """Course notes, figure I.12, and Perry's table: 31.6 and 169 g of potassium nitrate in 100 g of water at
+    20 and 80 °C, 36.0 and 38.4 g of sodium chloride; wrong names are refused with what is near.
+    """
+    drawing = solubilities_chart("potassium nitrate, sodium chloride,", "0 degC", "100 degC")
+    curves = {trace.name: trace for trace in drawing.data if trace.showlegend is not False}
+    for name, (cold, hot) in {
+        "potassium nitrate in water": (0.316, 1.69),
+        "sodium chloride in water": (0.360, 0.384),
+    }.items():
+        x, y = (np.asarray(values, dtype=float) for values in (curves[name].x, curves[name].y))
+        assert np.interp([20.0, 80.0], x, y) == pytest.approx([cold, hot], rel=0.015)
+    with pytest.raises(InputError, match="potassium nitrate"):
+        solubilities_chart("potassium nitrat")
+    with pytest.raises(InputError, match="at least one"):
+        solubilities_chart(" , ")
+    with pytest.raises(InputError, match="above the cold"):
+        solubilities_chart("sodium chloride", "50 degC", "20 degC")

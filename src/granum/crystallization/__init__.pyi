@@ -16,6 +16,7 @@ from granum.crystallization.charts_salts import (
 from granum.crystallization.charts_solutions import (
     antisolvent_chart as antisolvent_chart,
     polymorph_chart as polymorph_chart,
+    solubilities_chart as solubilities_chart,
 )
 from granum.crystallization.equipment.antisolvent import (
     AntisolventCrystallizer as AntisolventCrystallizer,
@@ -36,6 +37,9 @@ from granum.crystallization.equipment.batch import (
     VacuumBatchFigures as VacuumBatchFigures,
     VacuumBatchOutlets as VacuumBatchOutlets,
 )
+from granum.crystallization.equipment.boiling import (
+    Boiling as Boiling,
+)
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
 )
@@ -55,9 +59,14 @@ from granum.crystallization.equipment.msmpr import (
     CrystallizerFigures as CrystallizerFigures,
     Msmpr as Msmpr,
     VacuumCrystallizer as VacuumCrystallizer,
+    VacuumFigures as VacuumFigures,
 )
 from granum.crystallization.equipment.roles import (
     Roles as Roles,
+)
+from granum.crystallization.equipment.stirring import (
+    Stirred as Stirred,
+    Stirring as Stirring,
 )
 from granum.crystallization.equipment.two_salts import (
     Parted as Parted,

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 
 from granum.core import chart
-from granum.core.charts import ACCENT, LIQUID, OUT, SOLID, add_line, axis_title, figure
+from granum.core.charts import ACCENT, LINES, LIQUID, OUT, SOLID, add_line, axis_title, figure
+from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Density, Length, MassRatio, Ratio, Temperature, Time
 from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.kinds import Growth, Nucleation, OpenShare, Program, Solubility
 from granum.crystallization.vessels.polymorphs import Dissolution, polymorph_batch
+from granum.materials.library import session
 
 
 @chart(
@@ -75,6 +78,64 @@ def antisolvent_chart(
         margin={"r": 70, "t": 80},
         legend={"orientation": "h", "y": 1.08},
     )
+    return drawing
+
+
+@chart(
+    source="mullin2001, ch. 3",
+    title="Solubility curves of several solutes",
+    typical={"temperature_cold": (273.15, 295.0), "temperature_hot": (330.0, 370.0)},
+)
+def solubilities_chart(
+    systems: str = "potassium nitrate, copper sulfate, sodium chloride",
+    temperature_cold: Temperature = 273.15,
+    temperature_hot: Temperature = 373.15,
+) -> Any:
+    """Solubility curves of some solutes of the library on one chart, each over its stable crystal: what rises
+    steeply is cooled, what is flat is boiled down, what lies between is cooled under vacuum.
+
+    Names are separated by commas. Where a curve goes beyond its data it is drawn thin.
+
+    >>> drawing = solubilities_chart("potassium nitrate, copper sulfate, sodium chloride")
+    >>> [trace.name for trace in drawing.data if trace.showlegend is not False]
+    ['potassium nitrate in water', 'copper sulfate in water', 'sodium chloride in water']
+    """
+    if not temperature_hot > temperature_cold:
+        raise InputError(_("The hot temperature must be above the cold one."), name="temperature_hot")
+    names = list(dict.fromkeys(name.strip() for name in systems.split(",") if name.strip()))
+    if not names:
+        raise InputError(_("Name at least one solute of the library."), name="systems")
+    drawing = figure(
+        axis_title("temperature", "degC"),
+        axis_title("solubility_per_solvent", "kg/kg"),
+        title=_("Solubility curves"),
+    )
+    for name, color in zip(names, LINES * len(names), strict=False):
+        solute = session().solute(name)
+        low, high = solute.data_range
+        T = np.unique(np.concatenate([np.linspace(temperature_cold, temperature_hot, 161), [low, high]]))
+        T = T[(temperature_cold <= T) & (temperature_hot >= T)]
+        ratio = np.asarray(solute.solubility(jnp.asarray(T)))
+        known = (low <= T) & (high >= T)
+        add_line(
+            drawing,
+            T - ZERO_CELSIUS,
+            np.where(known, ratio, np.nan),
+            solute.label,
+            color=color,
+            width=3,
+        )
+        for beyond in (low >= T, high <= T):
+            if np.any(beyond & ~known):
+                add_line(
+                    drawing,
+                    T[beyond] - ZERO_CELSIUS,
+                    ratio[beyond],
+                    solute.label,
+                    color=color,
+                    width=1,
+                    showlegend=False,
+                )
     return drawing
 
 

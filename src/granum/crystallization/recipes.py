@@ -4,7 +4,7 @@ process.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import equinox as eqx
 import jax
@@ -193,6 +193,9 @@ def optimal_cooling(
     return CoolingRecipe(times, temperature, float(jnp.max(S)), float(nuclei), float(linear), float(mean))
 
 
+Downstream = Literal["dryer", "centrifuge", "reaction"]
+
+
 class Processes(NamedTuple):
     """Ways to crystallize, best first."""
 
@@ -203,7 +206,10 @@ class Processes(NamedTuple):
 
 
 TONNAGE_CONTINUOUS = 10_000.0 / 86_400.0  # kg/s: 10 t/d
-STEEP, FLAT = 0.01, 0.0015  # relative change of solubility per kelvin
+# Relative change of solubility per kelvin. In the course notes potassium nitrate (2.8 %/K from 20 to 80 °C)
+# is cooled, copper sulfate (1.7 %/K) cooled under vacuum, sodium chloride (0.1 %/K) boiled down.
+STEEP, FLAT = 0.03, 0.0015
+FLASHED = 0.0015  # of the solvent that boils off per kelvin of adiabatic cooling: 3.6 over 2400 kJ/kg
 
 
 @procedure(
@@ -220,12 +226,17 @@ def choose(
     fouling: bool = False,
     heat_sensitive: bool = False,
     narrow_sizes: bool = False,
+    solvent_hazardous: bool = False,
+    downstream: Downstream = "dryer",
 ) -> Processes:
-    """Ways to crystallize by solubility slope, tonnage, fouling and quality, the best first, with what speaks
-    for and against each.
+    """Ways to crystallize by solubility slope, tonnage, fouling, hazard and quality, the best first, with
+    what speaks for and against each.
 
-    Steep solubility asks for cooling, a flat one for evaporation, one in between for vacuum cooling; below
-    about 10 t/d a batch, above it continuous operation.
+    Steep solubility asks for cooling, a flat one for evaporation, one in between for vacuum cooling, which
+    adds the evaporation of some 0.15 % of the solvent per kelvin to an incomplete cooling crop; below about
+    10 t/d a batch, above it continuous operation. A hazardous solvent (flammable or toxic) is better not
+    boiled, nor doubled. Crystals for a centrifuge must be coarse, and what is dissolved again (reaction) need
+    not be.
 
     >>> best = choose(
     ...     solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
@@ -247,6 +258,17 @@ def choose(
     shown = _("Solubility {cold} → {hot} kg/kg: cooling alone gives {crop} %.").format(
         cold=format_number(cold, 3), hot=format_number(hot, 3), crop=format_number(100 * crop, 2)
     )
+    boiled = FLASHED * (temperature_hot - temperature_cold)
+    vacuum_crop = 1.0 - (1.0 - boiled) * cold / hot
+    flashed = _(
+        "It also boils off {boiled} % of the solvent: the crop rises from {crop} to {more} %."
+    ).format(
+        boiled=format_number(100 * boiled, 2),
+        crop=format_number(100 * crop, 2),
+        more=format_number(100 * vacuum_crop, 2),
+    )
+    closed = _("Vapor of a hazardous solvent must be condensed wholly, with no air drawn in.")
+    coarse = downstream == "centrifuge"
     steep = float(np.clip((slope - FLAT) / (STEEP - FLAT), 0.0, 1.0))
     between = 1.0 - abs(2.0 * steep - 1.0)
     tonnage = _(
@@ -266,24 +288,40 @@ def choose(
         ),
         (
             _("vacuum (adiabatic) cooling"),
-            0.2 + 0.35 * steep + 0.4 * between + 0.3 * fouling + 0.1 * heat_sensitive,
-            [shown, _("The wall fouls: no cooled surface in a vacuum crystallizer.") if fouling else ""],
-            [],
+            0.2
+            + 0.35 * steep
+            + 0.4 * between
+            + 0.3 * fouling
+            + 0.1 * heat_sensitive
+            - 0.25 * solvent_hazardous,
+            [
+                shown,
+                flashed,
+                _("The wall fouls: no cooled surface in a vacuum crystallizer.") if fouling else "",
+                _("Boils well below what the substance does not stand.") if heat_sensitive else "",
+            ],
+            [closed if solvent_hazardous else ""],
         ),
         (
             _("evaporation"),
-            0.9 - 0.8 * steep - 0.15 * heat_sensitive,
+            0.9 - 0.8 * steep - 0.15 * heat_sensitive - 0.15 * solvent_hazardous,
             ["" if steep > 0.5 else shown],
-            [_("Needs the latent heat of all the solvent; under vacuum for what does not stand heat.")],
+            [
+                _("Needs the latent heat of all the solvent; under vacuum for what does not stand heat."),
+                closed if solvent_hazardous else "",
+            ],
         ),
         (
             _("antisolvent"),
-            (0.35 + 0.3 * (1 - steep) + 0.25 * heat_sensitive) * antisolvent_available,
+            (0.35 + 0.3 * (1 - steep) + 0.25 * heat_sensitive - 0.1 * solvent_hazardous - 0.1 * coarse)
+            * antisolvent_available,
             [_("Works cold and gives high yields.")] if antisolvent_available else [],
             [
                 _("The solvents must be separated afterwards.")
                 if antisolvent_available
-                else _("No miscible antisolvent is available.")
+                else _("No miscible antisolvent is available."),
+                _("Often fine crystals, which a centrifuge lets through.") if coarse else "",
+                _("Two solvents to keep closed, and one of them distilled.") if solvent_hazardous else "",
             ],
         ),
     ]
@@ -300,9 +338,17 @@ def choose(
         ),
         (
             _("fluidized bed (Oslo), classified product"),
-            (0.95 if narrow_sizes else 0.5) * (1.0 if large else 0.3),
-            [_("Large and even crystals, growing without impellers.")] if narrow_sizes else [],
-            ["" if large else tonnage, "" if narrow_sizes else _("Dearer than a stirred vessel.")],
+            (0.95 if narrow_sizes else 0.85 if coarse else 0.3 if downstream == "reaction" else 0.5)
+            * (1.0 if large else 0.3),
+            [
+                _("Large and even crystals, growing without impellers.") if narrow_sizes else "",
+                _("Coarse crystals leave a centrifuge dry and need little drying.") if coarse else "",
+            ],
+            [
+                "" if large else tonnage,
+                "" if narrow_sizes or coarse else _("Dearer than a stirred vessel."),
+                _("What is dissolved again need not be coarse.") if downstream == "reaction" else "",
+            ],
         ),
     ]
     rows = [

@@ -66,6 +66,14 @@ from granum.streams.formulas.drives import (
     shaft_power_incompressible as shaft_power_incompressible,
     shaft_power_isothermal as shaft_power_isothermal,
 )
+from granum.streams.formulas.stirring import (
+    Blades as Blades,
+    Scaled as Scaled,
+    Stirring as Stirring,
+    heat_transfer_coefficient_stirred as heat_transfer_coefficient_stirred,
+    scale_up_stirrer as scale_up_stirrer,
+    stirring as stirring,
+)
 from granum.streams.from_materials import (
     CarrierProperty as CarrierProperty,
     SolutionViscosity as SolutionViscosity,
@@ -77,6 +85,9 @@ from granum.streams.holdup import (
 from granum.streams.mixture import (
     Mixture as Mixture,
     Species as Species,
+)
+from granum.streams.stirrers import (
+    Agitation as Agitation,
 )
 from granum.streams.stream import (
     Stream as Stream,

@@ -12,16 +12,13 @@ from typing import Any
 import jax.numpy as jnp
 
 from granum.core.constants import STANDARD_ATMOSPHERE
-from granum.core.errors import ApplicabilityError, InputError
 from granum.core.utilities import Utility
-from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.drives import (
-    rotation_speed_zwietering,
     shaft_power_adiabatic,
-    shaft_power_agitator,
     shaft_power_incompressible,
     shaft_power_isothermal,
 )
+from granum.streams.stirrers import agitation
 from granum.streams.stream import Stream
 from granum.streams.units import Utilities
 
@@ -33,7 +30,6 @@ AIR_VISCOSITY = 1.8e-5  # Pa s
 STEAM = {"low_pressure_steam": 432.0, "medium_pressure_steam": 457.0, "high_pressure_steam": 526.0}
 COLD = {"cooling_water": 303.15, "chilled_water": 278.15, "brine": 253.15, "deep_cold": 223.15}
 HEAT_APPROACH, COLD_APPROACH = 10.0, 5.0
-BLADES = 1.37  # power number of pitched blades, dickey2012
 DUCT = "perry2008, ch. 12, the dryer only: five velocity heads at 15 m/s in ducts are our own estimate"
 DUCT_HEADS, DUCT_SPEED = 5.0, 15.0
 
@@ -90,28 +86,11 @@ def ducted(gas: Stream, more: Any = 0.0) -> Any:
 
 def suspended(slurry: Stream, volume: Any) -> Any:
     """Electric power of pitched blades that just keep the solid of a slurry off the bottom of upright vessels
-    as high as wide, W; nothing without solid, and not told (``None``) where a property of the slurry is
-    unknown that only this asks for.
+    as high as wide, W; nothing without solid, and not told (``None``) where the viscosity of the liquid is
+    unknown, which only this asks for.
     """
-    try:
-        liquid_viscosity, liquid_density = slurry.liquid_viscosity, slurry.liquid_density
-        solid_density = slurry.solid_density
-    except (ApplicabilityError, InputError):
-        return None
-    some = (slurry.solid_flow > 0.0) & (slurry.liquid_flow > 0.0) & (volume > 0.0)
-    width = (4.0 * jnp.where(volume > 0.0, volume, 1.0) / jnp.pi) ** (1.0 / 3.0)
-    shares = jnp.sum(slurry.size_fractions * slurry.mixture.sizes)
-    speed = rotation_speed_zwietering(
-        width / 3.0,
-        jnp.where(some, shares, 1e-4),
-        solid_density,
-        liquid_density,
-        liquid_viscosity,
-        jnp.where(some, safe_divide(slurry.liquid_flow, slurry.solid_flow), 1.0),
-    )
-    density = safe_divide(slurry.solid_flow + slurry.liquid_flow, slurry.slurry_volume_flow, 1000.0)
-    power = shaft_power_agitator(speed, width / 3.0, jnp.where(some, density, 1000.0), BLADES)
-    return jnp.where(some, driven(power), 0.0)
+    made = agitation(slurry, volume)
+    return driven(made.power) if made.known else None
 
 
 def heated(duty: Any, temperature: Any) -> dict[str, Any]:

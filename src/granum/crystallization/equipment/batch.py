@@ -12,7 +12,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.errors import CaseError
+from granum.core.errors import CaseError, GranumError
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
@@ -27,9 +27,12 @@ from granum.core.kinds import (
     PositiveNumber,
     Power,
     Ratio,
+    RotationSpeed,
+    SpecificPower,
     Temperature,
     TemperatureDifference,
     Time,
+    Velocity,
     Volume,
 )
 from granum.core.limits import Limit
@@ -44,6 +47,7 @@ from granum.crystallization.equipment.roles import (
     roles,
     with_crystals,
 )
+from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, VesselVolume
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
@@ -52,11 +56,14 @@ from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
+from granum.streams.formulas.stirring import heat_transfer_coefficient_stirred
+from granum.streams.stirrers import slurry_density
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
-from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated, suspended
+from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated
 
 STEPS = 300
+INSIDE = 1000.0  # W/(m² K) on the inside of a jacketed wall, where neither it nor a stirrer is given
 TRICKLE = 1e-12  # kg/s of solvent, so that an empty feed gives an empty product
 
 
@@ -87,6 +94,9 @@ class BatchFigures(NamedTuple):
     seed_mass: Mass
     volume: Volume
     heat_duty: Power
+    rotation_speed_suspension: RotationSpeed
+    tip_speed: Velocity
+    specific_power_input: SpecificPower
 
 
 class JacketedBatchFigures(NamedTuple):
@@ -104,6 +114,10 @@ class JacketedBatchFigures(NamedTuple):
     temperature_difference_maximum: TemperatureDifference
     undercooling_wall_maximum: TemperatureDifference
     heat_duty: Power
+    heat_transfer_coefficient_inside: HeatTransferCoefficient
+    rotation_speed_suspension: RotationSpeed
+    tip_speed: Velocity
+    specific_power_input: SpecificPower
 
 
 class VacuumBatchFigures(NamedTuple):
@@ -119,6 +133,9 @@ class VacuumBatchFigures(NamedTuple):
     volume: Volume
     evaporation: MassFlow
     evaporation_maximum: MassFlow
+    rotation_speed_suspension: RotationSpeed
+    tip_speed: Velocity
+    specific_power_input: SpecificPower
 
 
 class PlugFlowFigures(NamedTuple):
@@ -256,11 +273,13 @@ class _Batch(Unit):
         }
 
 
-class _Cycled(_Batch):
+class _Cycled(Stirred, _Batch):
     """A batch vessel that works in cycles of batch and dead time."""
 
     duration: Time = eqx.field(kw_only=True)
     dead_time: Time = eqx.field(kw_only=True, default=3600.0)
+
+    limits: ClassVar[Limits] = _Batch.limits | SUSPENDED
 
     @property
     def cycle(self) -> Any:
@@ -273,6 +292,14 @@ class _Cycled(_Batch):
     def _seed(self, feed: Stream, found: Roles) -> Any:
         """Mass of seed held back in each cycle of the whole flow, kg."""
         return self.seed_mass_per_solvent * feed_of(feed, found).solvent * self.cycle
+
+    def _vessel(self, figures: Any) -> Any:
+        """Volume of one vessel, m³."""
+        return figures.volume
+
+    def measured(self, inside: Grown, outlets: Any, figures: Any, feed: Stream) -> dict[str, Any]:
+        stirrer = self.stirrer_measured(outlets.product, self._vessel(figures))
+        return super().measured(inside, outlets, figures, feed) | stirrer
 
 
 def _thermal(duty: Any, feed: Stream, product: Stream) -> dict[str, Any]:
@@ -295,7 +322,8 @@ class BatchCrystallizer(_Cycled):
 
     Crystals that come with the feed are the seeds, together with ``seed_mass_per_solvent`` of a sieve cut,
     which is taken from the product (a share of the crystals is held back for the next batch, so that the line
-    balances). The duty is the mean one; its peak is larger.
+    balances). The duty is the mean one; its peak is larger. The vessel is as high as wide; without a
+    ``rotation_speed`` its stirrer turns just fast enough to keep all crystals off the bottom.
     """
 
     temperature_program: Program
@@ -311,14 +339,16 @@ class BatchCrystallizer(_Cycled):
     def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> BatchFigures:
         figures = self._figures(inside, outlets.product, feed)
         volume = outlets.product.slurry_volume_flow * self.cycle
-        return BatchFigures._make((*figures, self._seed(feed, inside.found), volume, outlets.heat_duty))
+        stirrer = self.stirrer_figures(outlets.product, volume)
+        return BatchFigures._make(
+            (*figures, self._seed(feed, inside.found), volume, outlets.heat_duty, *stirrer)
+        )
 
     def drawn(
         self, inside: Grown, outlets: BatchOutlets, figures: BatchFigures, feed: Stream
     ) -> dict[str, Any]:
-        return _thermal(outlets.heat_duty, feed, outlets.product) | {
-            "electric_power_agitator": suspended(outlets.product, figures.volume)
-        }
+        stirrer = self.stirrer_power(outlets.product, figures.volume)
+        return _thermal(outlets.heat_duty, feed, outlets.product) | stirrer
 
 
 @equipment(
@@ -332,14 +362,15 @@ class JacketedBatchCrystallizer(_Cycled):
     follows from the heat balance.
 
     The charge starts at the temperature of the feed. The wall is checked against encrustation: its
-    undercooling should stay within the metastable zone width.
+    undercooling should stay within the metastable zone width. The coefficient on its inside follows from the
+    stirrer where its speed is given, and is 1000 W/(m² K) where neither is.
     """
 
     jacket_program: Program
     volume: VesselVolume
     area: Area
     heat_transfer_coefficient: HeatTransferCoefficient
-    heat_transfer_coefficient_inside: HeatTransferCoefficient = 1000.0
+    heat_transfer_coefficient_inside: HeatTransferCoefficient | None = None
     metastable_width: TemperatureDifference = 5.0
 
     limits: ClassVar[Limits] = _Cycled.limits | {
@@ -361,12 +392,51 @@ class JacketedBatchCrystallizer(_Cycled):
     def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
         return self._cooled(inside, feed)
 
+    def _vessel(self, figures: Any) -> Any:
+        return self.volume
+
+    def _inside_coefficient(self, found: Roles, product: Stream) -> Any:
+        """Heat transfer coefficient on the inside of the wall, W/(m² K): given, or that of the stirrer."""
+        if self.heat_transfer_coefficient_inside is not None:
+            return self.heat_transfer_coefficient_inside
+        if self.rotation_speed is None:
+            return INSIDE
+        made, liquid = self.stirred(product, self.volume), product.part(liquid=1.0)
+        name = product.mixture.liquids[found.solvent].name
+        try:
+            conductivity = product.mixture.materials.fluid(name).liquid_conductivity.value(
+                product.temperature
+            )
+        except GranumError:
+            conductivity = None
+        if not made.known or conductivity is None:
+            raise CaseError(
+                _(
+                    "The heat transfer coefficient of the stirrer needs the viscosity of the liquid and the "
+                    "thermal conductivity of '{solvent}': name a solvent of the library, or give "
+                    "'heat_transfer_coefficient_inside'."
+                ).format(solvent=name)
+            )
+        T = product.temperature
+        heat_capacity = safe_divide(
+            liquid.enthalpy_at(T + 0.5) - liquid.enthalpy_at(T - 0.5), liquid.liquid_flow, 4000.0
+        )
+        return heat_transfer_coefficient_stirred(
+            self.rotation_speed,
+            made.diameter,
+            made.vessel,
+            slurry_density(product),
+            product.liquid_viscosity,
+            heat_capacity,
+            conductivity,
+            self.impeller,
+        )
+
     def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> JacketedBatchFigures:
+        inner = self._inside_coefficient(inside.found, outlets.product)
         figures, course = self._figures(inside, outlets.product, feed), inside.course
         T, T_j = course.temperature, self.jacket_program(course.time) + jnp.zeros_like(course.time)
-        wall = wall_temperature_jacket(
-            T, T_j, self.heat_transfer_coefficient, self.heat_transfer_coefficient_inside
-        )
+        wall = wall_temperature_jacket(T, T_j, self.heat_transfer_coefficient, inner)
         cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
         count = feed.slurry_volume_flow * self.cycle / self.volume
         return JacketedBatchFigures._make(
@@ -378,6 +448,8 @@ class JacketedBatchCrystallizer(_Cycled):
                 jnp.max(T - T_j),
                 cold,
                 outlets.heat_duty,
+                jnp.asarray(inner, dtype=float),
+                *self.stirrer_figures(outlets.product, self.volume),
             )
         )
 
@@ -389,9 +461,8 @@ class JacketedBatchCrystallizer(_Cycled):
     def drawn(
         self, inside: Grown, outlets: BatchOutlets, figures: JacketedBatchFigures, feed: Stream
     ) -> dict[str, Any]:
-        return _thermal(outlets.heat_duty, feed, outlets.product) | {
-            "electric_power_agitator": suspended(outlets.product, figures.vessel_count * self.volume)
-        }
+        stirrer = self.stirrer_power(outlets.product, self.volume, figures.vessel_count)
+        return _thermal(outlets.heat_duty, feed, outlets.product) | stirrer
 
 
 @equipment(
@@ -439,14 +510,16 @@ class VacuumBatchCrystallizer(_Cycled):
         # after the first flash
         fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * self.cycle
         gone, volume = course.solvent[0] - course.solvent[-1], outlets.product.slurry_volume_flow * self.cycle
-        return VacuumBatchFigures._make((*figures, self._seed(feed, inside.found), volume, gone, fastest))
+        stirrer = self.stirrer_figures(outlets.product, volume)
+        return VacuumBatchFigures._make(
+            (*figures, self._seed(feed, inside.found), volume, gone, fastest, *stirrer)
+        )
 
     def drawn(
         self, inside: Grown, outlets: VacuumBatchOutlets, figures: VacuumBatchFigures, feed: Stream
     ) -> dict[str, Any]:
-        return _thermal(outlets.heat_duty, feed, outlets.product) | {
-            "electric_power_agitator": suspended(outlets.product, figures.volume)
-        }
+        stirrer = self.stirrer_power(outlets.product, figures.volume)
+        return _thermal(outlets.heat_duty, feed, outlets.product) | stirrer
 
 
 @equipment(

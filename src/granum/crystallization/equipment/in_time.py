@@ -71,7 +71,6 @@ class InTime(Dynamic):
     """
 
     if TYPE_CHECKING:  # fields of every crystallizer
-        temperature: Any
         volume: Any
         solubility: Any
         growth: Any
@@ -85,15 +84,23 @@ class InTime(Dynamic):
     def inside(self, feed: Stream) -> tuple[SteadyState, Roles]: ...
 
     @abstractmethod
+    def held_at(self, mixture: Any) -> Any:
+        """Temperature inside, K."""
+
+    @abstractmethod
+    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream: ...
+
+    @abstractmethod
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]: ...
 
     def _crystal(self, mixture: Any, found: Roles) -> Crystal:
-        return crystal_of(mixture, found, self.temperature, self.volume_shape_factor)
+        return crystal_of(mixture, found, self.held_at(mixture), self.volume_shape_factor)
 
     def initial_holdup(self, mixture: Any) -> Held:
         found = roles(mixture, self.solid, self.solvent)
         crystal, x = self._crystal(mixture, found), found.solute_fraction
-        ratio, density = self.solubility(self.temperature), mixture.densities("liquids", self.temperature)
+        T = self.held_at(mixture)
+        ratio, density = self.solubility(T), mixture.densities("liquids", T)
         seeds = SOWN * self.volume
         solvent = (self.volume - seeds / crystal.density) / (
             1.0 / density[found.solvent] + ratio / density[found.solute]
@@ -162,7 +169,7 @@ class InTime(Dynamic):
         then, now = before["feed"], after["feed"]
         mixture, found = now.mixture, roles(now.mixture, self.solid, self.solvent)
         crystal, x = self._crystal(mixture, found), found.solute_fraction
-        cube, T = crystal.mass_per_cube, jnp.asarray(self.temperature, dtype=float)
+        cube, T = crystal.mass_per_cube, jnp.asarray(self.held_at(mixture), dtype=float)
         densities, solids = mixture.densities("liquids", T), mixture.densities("solids", T)
 
         def volume(liquid: Any, solid: Any) -> Any:
@@ -252,11 +259,12 @@ class InTime(Dynamic):
     def _outlets(self, state: Held, now: Stream, found: Roles, cube: Any, bound: Any) -> Crystallized:
         grown = with_crystals(now, found, cube * state.crystals.cubes_in(now.mixture.edges))
         solid = state.solid.at[found.solid].set(grown[found.solid])
-        T = jnp.asarray(self.temperature, dtype=float)
+        T = jnp.asarray(self.held_at(now.mixture), dtype=float)
         product = now.replace(
             solid=solid * state.turnover,
             liquid=(state.liquid - bound) * state.turnover,
             gas=0.0 * now.gas,
             temperature=T,
         )
-        return Crystallized(product, given_off(now, found, state.evaporation, T), jnp.zeros(()))
+        vapor = self._vapor(given_off(now, found, state.evaporation, T), now, found)
+        return Crystallized(product, vapor, jnp.zeros(()))

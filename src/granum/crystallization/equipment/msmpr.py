@@ -23,10 +23,17 @@ from granum.core.kinds import (
     Number,
     PositiveNumber,
     Power,
+    Pressure,
+    Ratio,
+    RotationSpeed,
+    SpecificPower,
     Temperature,
+    TemperatureDifference,
     Time,
+    Velocity,
 )
 from granum.core.limits import Limit
+from granum.crystallization.equipment.boiling import Boiling, boiling_of
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
     LARGEST,
@@ -38,17 +45,22 @@ from granum.crystallization.equipment.roles import (
     roles,
     with_crystals,
 )
+from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.kinds import Growth, Nucleation, Solubility, VesselVolume
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
+from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
-from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated, suspended
+from granum.streams.utilities import COLD, COLD_APPROACH, COOLED, HEATED, STIRRED, cooled, heated
 
 _UNSOLVED = (
     "No supersaturation was found at which the crystals made are those that the solute balance leaves: "
     "check feed, kinetics and evaporation."
 )
+
+
+WATER = COLD["cooling_water"] + COLD_APPROACH  # K, at which cooling water condenses the vapor
 
 
 class CrystallizerFigures(NamedTuple):
@@ -65,6 +77,34 @@ class CrystallizerFigures(NamedTuple):
     mass_median_size: Distance
     evaporation: MassFlow
     heat_duty: Power
+    rotation_speed_suspension: RotationSpeed
+    tip_speed: Velocity
+    specific_power_input: SpecificPower
+
+
+class VacuumFigures(NamedTuple):
+    """Figures of a continuous vacuum crystallizer."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Number
+    magma_density: Concentration
+    relative_supersaturation: Number
+    growth_rate: GrowthRate
+    nucleation_rate: NucleationRate
+    residence_time: Time
+    growth_length: Distance
+    mass_median_size: Distance
+    evaporation: MassFlow
+    heat_duty: Power
+    rotation_speed_suspension: RotationSpeed
+    tip_speed: Velocity
+    specific_power_input: SpecificPower
+    boiling_temperature: Temperature
+    boiling_point_elevation: TemperatureDifference
+    pressure: Pressure
+    temperature_condensation: Temperature
+    condenser_duty: Power
+    ejector_pressure_ratio: Ratio
 
 
 STEADY: Limits = {
@@ -75,7 +115,7 @@ STEADY: Limits = {
 }
 
 
-class _Continuous(Unit):
+class _Continuous(Stirred, Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
     temperature: Temperature
@@ -88,29 +128,34 @@ class _Continuous(Unit):
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
-    limits: ClassVar[Limits] = STEADY | {
-        "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
-    }
+    limits: ClassVar[Limits] = (
+        STEADY
+        | SUSPENDED
+        | {
+            "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
+        }
+    )
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
     def inside(self, feed: Stream) -> tuple[SteadyState, Roles]:
         """The steady suspension, and which species plays which part."""
         found = roles(feed.mixture, self.solid, self.solvent)
-        densities = feed.mixture.densities("liquids", self.temperature)
+        T = self.held_at(feed.mixture)
+        densities = feed.mixture.densities("liquids", T)
         volumes = feed.liquid / densities
         others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
         evaporation, per_crystal = self._evaporation(feed, found)
         # once more where its flags are heard: inside what is compiled they are lost
-        self.solubility(self.temperature)
+        self.solubility(T)
         state = steady_msmpr(
             feed_of(feed, found),
-            self.temperature,
+            T,
             self.volume,
             self.solubility,
             self.growth,
             self.nucleation,
-            crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor),
+            crystal_of(feed.mixture, found, T, self.volume_shape_factor),
             AdditiveVolumes(densities[found.solute], densities[found.solvent], others),
             feed.mixture.edges,
             evaporation,
@@ -123,19 +168,20 @@ class _Continuous(Unit):
 
     def outlets(self, inside: tuple[SteadyState, Roles], feed: Stream) -> Crystallized:
         state, found = inside
+        T = self.held_at(feed.mixture)
         liquid = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
         product = feed.replace(
             solid=with_crystals(feed, found, state.crystals),
             liquid=liquid,
             gas=0.0 * feed.gas,
-            temperature=jnp.asarray(self.temperature, dtype=float),
+            temperature=jnp.asarray(T, dtype=float),
         )
-        vapor = given_off(feed, found, state.evaporation, self.temperature)
+        vapor = self._vapor(given_off(feed, found, state.evaporation, T), feed, found)
         if found.vapor is not None:
             refuse_boiling(state.solvent, vapor.gas[found.vapor], feed, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
-    def figures(
+    def _common(
         self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
     ) -> CrystallizerFigures:
         state, found = inside
@@ -154,13 +200,14 @@ class _Continuous(Unit):
             median_of(state.crystals, feed.mixture.edges),
             jnp.asarray(state.evaporation, dtype=float),
             outlets.heat_duty,
+            *self.stirrer_figures(outlets.product, self.volume),
         )
 
     def measured(
         self,
         inside: tuple[SteadyState, Roles],
         outlets: Crystallized,
-        figures: CrystallizerFigures,
+        figures: Any,
         feed: Stream,
     ) -> dict[str, Any]:
         return {
@@ -169,18 +216,25 @@ class _Continuous(Unit):
             "present": jnp.where(inside[0].washed_out, 0.0, 1.0),
             "largest": outlets.product.size_fractions[-1],
             "drying": figures.evaporation,
-        }
+        } | self.stirrer_measured(outlets.product, self.volume)
 
     def drawn(
         self,
         inside: tuple[SteadyState, Roles],
         outlets: Crystallized,
-        figures: CrystallizerFigures,
+        figures: Any,
         feed: Stream,
     ) -> dict[str, Any]:
-        duty, T = outlets.heat_duty, self.temperature
-        agitator = {"electric_power_agitator": suspended(outlets.product, self.volume)}
-        return heated(duty, T) | cooled(duty, T) | agitator
+        duty, T = outlets.heat_duty, outlets.product.temperature
+        return heated(duty, T) | cooled(duty, T) | self.stirrer_power(outlets.product, self.volume)
+
+    def held_at(self, mixture: Mixture) -> Any:
+        """Temperature inside, K."""
+        return self.temperature
+
+    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream:
+        """The vapor at the pressure over the suspension, which is that of the pure solvent by default."""
+        return vapor
 
     def _removal(self) -> Removal | None:
         """Fines dissolved and product classified; none by default."""
@@ -195,6 +249,11 @@ class _Evaporating(_Continuous):
     """A vessel from which a given flow of solvent evaporates."""
 
     evaporation: MassFlow = eqx.field(kw_only=True, default=0.0)
+
+    def figures(
+        self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
+    ) -> CrystallizerFigures:
+        return self._common(inside, outlets, feed)
 
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
         if found.vapor is not None:
@@ -216,7 +275,9 @@ class Msmpr(_Evaporating, InTime):
 
     The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute
     balance leaves; seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their
-    water from the solvent.
+    water from the solvent. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
+    fast enough to keep all crystals off the bottom. A viscosity that is not known counts there as that of
+    water.
     """
 
 
@@ -256,17 +317,86 @@ class VacuumCrystallizer(_Continuous, InTime):
     """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to
     foul.
 
-    The vapor is what the enthalpy balance leaves at the given temperature; ``heat_duty`` adds heat from
-    outside (zero for the adiabatic flash). The vapor pressure that the ejectors must hold follows from the
-    temperature.
+    The vapor is what the enthalpy balance leaves; ``heat_duty`` adds heat from outside (zero for the
+    adiabatic flash). Either the temperature is given and the pressure that must be held follows, or the other
+    way round: the saturated mother liquor boils there. The elevation is that of the library's water activity,
+    or of two coefficients over the mass fraction of solute; it counts as none at a given temperature where
+    neither is there. Further solutes and the supersaturation do not raise it. An ejector is needed where
+    cooling water condenses nothing, below 35 °C.
     """
 
+    temperature: Temperature | None = eqx.field(kw_only=True, default=None)
+    pressure: Pressure | None = eqx.field(kw_only=True, default=None)
     heat_duty: Power = 0.0
+    elevation_linear: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
+    elevation_quadratic: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
+
+    limits: ClassVar[Limits] = _Continuous.limits | {
+        "ejector": Limit("pressure ratio of one ejector", 0.0, 10.0, "dimensionless", "perry2008, § 10"),
+    }
+
+    def __check_init__(self) -> None:
+        if (self.temperature is None) == (self.pressure is None):
+            raise CaseError(
+                _("A vacuum crystallizer takes either 'temperature' or 'pressure': give one of the two.")
+            )
+
+    def _boiling(self, mixture: Mixture) -> Boiling | None:
+        found = roles(mixture, self.solid, self.solvent)
+        given = (self.elevation_linear, self.elevation_quadratic)
+        return boiling_of(mixture, found, self.solubility, given, needed=self.pressure is not None)
+
+    def held_at(self, mixture: Mixture) -> Any:
+        if self.temperature is not None:
+            return self.temperature
+        law = self._boiling(mixture)
+        assert law is not None
+        return law.temperature(self.pressure, type(self).card)
+
+    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream:
+        law = self._boiling(feed.mixture)
+        if law is None:
+            return vapor
+        if self.pressure is None:
+            return vapor.replace(pressure=jnp.minimum(law.pressure(vapor.temperature), feed.pressure))
+        return vapor.replace(pressure=jnp.asarray(self.pressure, dtype=float))
+
+    def figures(
+        self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
+    ) -> VacuumFigures:
+        found, law = inside[1], self._boiling(feed.mixture)
+        T, held = outlets.product.temperature, outlets.vapor.pressure
+        lifted = held if law is None else law.solvent.vapor_pressure.value(WATER)
+        pure = T if law is None or not law.elevated else law.pure(held)
+        vapor = outlets.vapor.part(gas=1.0)
+        solvent = vapor.gas[found.vapor]
+        liquid = vapor.replace(
+            gas=vapor.gas.at[found.vapor].set(0.0), liquid=vapor.liquid.at[found.solvent].set(solvent)
+        )
+        return VacuumFigures(
+            *self._common(inside, outlets, feed),
+            T,
+            T - pure,
+            held,
+            pure,
+            vapor.enthalpy_flow - liquid.enthalpy_at(pure),
+            jnp.maximum(lifted / held, 1.0),
+        )
+
+    def measured(
+        self,
+        inside: tuple[SteadyState, Roles],
+        outlets: Crystallized,
+        figures: Any,
+        feed: Stream,
+    ) -> dict[str, Any]:
+        ratio = figures.ejector_pressure_ratio
+        return super().measured(inside, outlets, figures, feed) | {"ejector": ratio}
 
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
         if found.vapor is None:
             raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
-        m, T = feed.mixture, self.temperature
+        m, T = feed.mixture, self.held_at(feed.mixture)
         liquid, solid, gas = (m.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
         latent = gas[found.vapor] - liquid[found.solvent]
         x = found.solute_fraction

@@ -1,0 +1,95 @@
+"""Pressure and temperature at which the mother liquor of a crystallizer boils."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core.errors import CaseError
+from granum.core.flags import unsolved
+from granum.core.i18n import _
+from granum.crystallization.equipment.roles import Roles
+from granum.materials.fluids import Fluid
+from granum.numerics import find_root
+from granum.numerics.smooth import safe_divide
+from granum.streams.from_materials import activity_laws
+from granum.streams.mixture import Mixture
+
+SPAN = 80.0  # K above the boiling point of the solvent within which a solution is sought that boils
+NOT_FOUND = "No temperature was found at which the saturated solution boils: check pressure and solubility."
+
+
+class Boiling(eqx.Module):
+    """Of the solution saturated with the crystal's solute. The elevation follows from the water activity of
+    the library, from two coefficients over the mass fraction of solute, or is none (``law`` and
+    ``coefficients`` both None).
+    """
+
+    solvent: Fluid
+    solubility: Any
+    law: Any
+    coefficients: tuple[Any, Any] | None
+
+    @property
+    def elevated(self) -> bool:
+        """Whether anything is known of the elevation."""
+        return self.law is not None or self.coefficients is not None
+
+    def pressure(self, temperature: Any) -> Any:
+        """Over the solution, Pa."""
+        psat, T = self.solvent.vapor_pressure.value, jnp.asarray(temperature, dtype=float)
+        ratio = self.solubility(T)
+        if self.coefficients is not None:
+            w = safe_divide(ratio, 1.0 + ratio, 0.0)
+            return psat(T - self.coefficients[0] * w - self.coefficients[1] * w**2)
+        return psat(T) if self.law is None else psat(T) * self.law(T, ratio)
+
+    def pure(self, pressure: Any) -> Any:
+        """Temperature at which the solvent alone boils, K."""
+        return self.solvent.boiling_temperature(pressure)
+
+    def temperature(self, pressure: Any, card: Any) -> Any:
+        """At which the solution boils, K."""
+        low = self.pure(pressure)
+        goal = jnp.log(jnp.asarray(pressure, dtype=float))
+        root = find_root(
+            lambda T, y: jnp.log(self.pressure(T)) - y, low - 1.0, low + SPAN, goal, start=low + 2.0
+        )
+        unsolved(root.converged, card, reason=NOT_FOUND)
+        return root.value
+
+
+def boiling_of(
+    mixture: Mixture, found: Roles, solubility: Any, given: tuple[Any, Any], needed: bool
+) -> Boiling | None:
+    """How the mother liquor of a mixture boils; None where its solvent is not in the library. What is
+    ``needed`` and cannot be known is refused.
+    """
+    name = mixture.liquids[found.solvent].name
+    same = found.vapor is not None and mixture.gases[found.vapor].name == name
+    if not same or name not in mixture.materials.names("fluid"):
+        if needed:
+            raise CaseError(
+                _(
+                    "The boiling temperature at a pressure needs a solvent of the library, as liquid and as "
+                    "gas, not '{solvent}': give the temperature."
+                ).format(solvent=name)
+            )
+        return None
+    law, coefficients = None, None
+    if any(part is not None for part in given):
+        linear, quadratic = (0.0 if part is None else part for part in given)
+        coefficients = (linear, quadratic)
+    elif found.solvent == 0:
+        law = activity_laws(mixture)[found.solute - 1]
+    if needed and law is None and coefficients is None:
+        raise CaseError(
+            _(
+                "The library has no water activity of {solutes}: give 'elevation_linear' and "
+                "'elevation_quadratic', the boiling-point elevation over the mass fraction of what is "
+                "dissolved."
+            ).format(solutes=mixture.liquids[found.solute].name)
+        )
+    return Boiling(mixture.materials.fluid(name), solubility, law, coefficients)

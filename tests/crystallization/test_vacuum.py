@@ -1,0 +1,103 @@
+"""The vacuum crystallizer between its pressure and its temperature."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import granum as gr
+from granum.core.errors import CaseError
+from granum.materials.library import session
+
+LINE = """
+title = "salt under vacuum"
+[mixture]
+liquids = ["water", "{salt}"]
+solids = ["{salt}"]
+gases = ["water"]
+sizes = {{ smallest = "10 um", largest = "4 mm", classes = 24 }}
+[feeds.brine]
+to = "flash.feed"
+temperature = "{hot}"
+pressure = "2 bar"
+liquid_flow = "3600 kg/h"
+liquid = {{ water = {water}, "{salt}" = {solute} }}
+[units.flash]
+model = "crystallization.vacuum_crystallizer"
+{held}
+volume = "4 m3"
+solubility = {{ law = "library_solubility", solute = "{salt}" }}
+growth = {{ law = "power_law_growth", growth_coefficient = 1.161e-4, growth_order = 1.32 }}
+nucleation = {{ law = "secondary_nucleation", nucleation_coefficient = 2.196e8, nucleation_order = 1.78 }}
+[streams]
+suspension = ["flash.product"]
+vapor = ["flash.vapor"]
+"""
+
+
+def vessel(tmp_path: Path, held: str, salt="sodium chloride", hot="105 degC", solute=0.27):
+    text = LINE.format(held=held, salt=salt, hot=hot, water=1.0 - solute, solute=solute)
+    (tmp_path / "line.toml").write_text(text, encoding="utf-8")
+    return gr.read(tmp_path / "line.toml")
+
+
+def figures(line):
+    return line.solve().units["flash"].values
+
+
+def test_saturated_brine_boils_where_tables_say(tmp_path: Path) -> None:
+    """At 108.7 °C under one atmosphere (CRC Handbook; recalled, not opened)."""
+    made = figures(vessel(tmp_path, 'pressure = "1 atm"\nheat_duty = "400 kW"', hot="100 degC"))
+    assert float(made.boiling_temperature) - 273.15 == pytest.approx(108.7, abs=0.4)
+    assert float(made.boiling_point_elevation) == pytest.approx(8.7, abs=0.4)
+
+
+@pytest.mark.parametrize("pressure", [1.5e3, 8e3, 5e4])
+def test_there_and_back(tmp_path: Path, pressure: float) -> None:
+    """The temperature that a pressure holds asks for this pressure, and all else is the same."""
+    there = figures(vessel(tmp_path, f"pressure = {pressure}"))
+    T = float(there.boiling_temperature)
+    back = figures(vessel(tmp_path, f"temperature = {T!r}"))
+    for name in there._fields:
+        np.testing.assert_allclose(
+            float(getattr(back, name)), float(getattr(there, name)), rtol=1e-7, atol=1e-6, err_msg=name
+        )
+    assert float(there.pressure) == pytest.approx(pressure)
+    # water over saturated brine: its activity is 0.753 at 25 °C (Robinson and Stokes), near that at all
+    pure = float(session().fluid("water").vapor_pressure.value(T))
+    assert pressure / pure == pytest.approx(0.753, abs=0.012)
+
+
+def test_the_condenser_and_the_ejector(tmp_path: Path) -> None:
+    """Heat of evaporation and some superheat; cooling water at 35 °C condenses 5.6 kPa and more (steam
+    tables: 5.629 kPa).
+    """
+    made = figures(vessel(tmp_path, 'pressure = "1.5 kPa"'))
+    latent = float(gr.materials.water_heat_of_vaporization(made.temperature_condensation))
+    superheat = 1.88e3 * float(made.boiling_point_elevation)
+    assert float(made.condenser_duty) == pytest.approx(
+        float(made.evaporation) * (latent + superheat), rel=2e-3
+    )
+    assert float(made.ejector_pressure_ratio) == pytest.approx(5.629 / 1.5, rel=2e-3)
+    assert float(figures(vessel(tmp_path, 'pressure = "8 kPa"')).ejector_pressure_ratio) == 1.0
+
+
+def test_given_coefficients(tmp_path: Path) -> None:
+    """The library has no water activity of potassium nitrate: the elevation is asked for, and taken."""
+    with pytest.raises(CaseError, match="potassium nitrate"):
+        vessel(tmp_path, 'pressure = "10 kPa"', "potassium nitrate", "85 degC", 0.5).solve()
+    held = 'pressure = "10 kPa"\nelevation_linear = "3 delta_degC"\nelevation_quadratic = "5 delta_degC"'
+    made = figures(vessel(tmp_path, held, "potassium nitrate", "85 degC", 0.5))
+    ratio = float(
+        gr.materials.solubility(made.boiling_temperature, "potassium nitrate").solubility_per_solvent
+    )
+    w = ratio / (1.0 + ratio)
+    assert float(made.boiling_point_elevation) == pytest.approx(3.0 * w + 5.0 * w**2, rel=1e-6)
+
+
+@pytest.mark.parametrize("held", ["", 'pressure = "10 kPa"\ntemperature = "50 degC"'])
+def test_one_of_the_two(tmp_path: Path, held: str) -> None:
+    with pytest.raises(CaseError, match="either 'temperature' or 'pressure'"):
+        vessel(tmp_path, held).solve()
