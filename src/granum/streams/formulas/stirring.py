@@ -30,7 +30,7 @@ Impeller = Literal["pitched_blades", "disc_turbine", "paddle", "propeller"]
 
 class Blades(NamedTuple):
     """Turbulent power number, Zwietering's constant (a third of the diameter of the vessel, a quarter of it
-    above the bottom), factor of the Nusselt number at the wall.
+    above the bottom; recalled but for 5.8), factor of the Nusselt number at the wall.
     """
 
     power_number: float
