@@ -7,6 +7,24 @@ document.querySelectorAll('nav').forEach((nav) => {
   heard.add(name);
 });
 document.querySelectorAll('pre > code, .equation').forEach((place) => { place.tabIndex = 0; });
+// The switch of the colors is two radio buttons, each beside the hidden label of the other, with the name of the other.
+const colors = document.querySelector('form[data-md-component=palette]');
+if (colors) {
+  const group = document.createElement('div');
+  group.setAttribute('role', 'radiogroup');
+  group.setAttribute('aria-label', 'Colors');
+  group.append(...colors.childNodes);
+  colors.append(group);
+  const buttons = [...colors.querySelectorAll('input')];
+  const names = buttons.map((button) => button.getAttribute('aria-label'));
+  buttons.forEach((button, i) => {
+    const other = (i + 1) % buttons.length;
+    button.setAttribute('aria-label', names[other]);
+    const label = button.nextElementSibling;
+    label.removeAttribute('for');
+    label.addEventListener('click', () => buttons[other].click());
+  });
+}
 
 /** What Plotly draws in a place: its legend goes below where the place is narrow or the names are many. */
 function drawn(place, { data, layout }) {

@@ -119,7 +119,7 @@ drop = float(d.drying_time_diffusion(0.1, "50 um", "3e-10 m^2/s", shape="sphere"
 
 
 def vial(shelf, pressure):
-    """A fill of 7 mm in primary drying, at a temperature in °C and a pressure in Pa (Shivkumar and others)."""
+    """A fill of 7 mm in primary drying, at °C and Pa, in the vial of Shivkumar and others."""
     per_volume = float(d.frozen_height("1 mL", "3.14 cm^2", "0.05 g/mL"))
     return d.primary_drying(
         pressure,

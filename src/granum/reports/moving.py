@@ -22,7 +22,7 @@ from granum.core.parameters import Parameter
 from granum.core.units import format_number
 
 DIGITS = 4  # of a coordinate
-JUMP = 4.0  # a step of a line, over those before and after it
+JUMP, LEAST = 2.0, 0.02  # a step of a line, over those before and after it, and over its height
 
 
 class Slider(NamedTuple):
@@ -110,13 +110,17 @@ class MovingFigure(NamedTuple):
 
 
 def thin(drawn: go.Figure, points: int) -> None:
-    """Lines with fewer points: a page carries them many times. Their ends stay, and both sides of a jump."""
+    """Lines with fewer points, even on their axis: a page carries them many times. Their ends stay, and both
+    sides of a jump.
+    """
+    spaced = np.geomspace if drawn.layout.xaxis.type == "log" else np.linspace
     for trace in drawn.data:
         if trace.mode == "lines" and len(trace.x) > points:
             x, y = np.asarray(trace.x), np.asarray(trace.y)
-            kept = np.linspace(0, len(x) - 1, points).round().astype(int)
+            kept = np.abs(x[:, None] - spaced(x[0], x[-1], points)).argmin(axis=0)
             step = np.pad(np.abs(np.diff(y)), 1)
-            jumps = np.flatnonzero(step[1:-1] > JUMP * np.maximum(step[:-2], step[2:]))
+            at, around = step[1:-1], np.maximum(step[:-2], step[2:])
+            jumps = np.flatnonzero((at > JUMP * around) & (at > LEAST * np.ptp(y)))
             kept = np.unique(np.concatenate([kept, jumps, jumps + 1]))
             trace.x, trace.y = x[kept], y[kept]
 

@@ -121,7 +121,7 @@ def fluidization(particle_diameter: str, particle_density: str, height: str) -> 
     drawn = gr.fluidization.pressure_velocity_chart(
         height, particle_diameter, particle_density, 1.2, "18 uPa s", 0.55, 0.50, 0.67
     )
-    thin(drawn, 16)
+    thin(drawn, 24)
     drawn.update_xaxes(range=[-3.0, 1.0])
     drawn.update_yaxes(range=[0.0, 25.0])
     return drawn
@@ -218,5 +218,5 @@ FIGURES = {
 def moving_figure(name: str) -> MovingFigure:
     """A figure by name."""
     if name not in FIGURES:
-        raise unknown_name(_("Figure"), name, FIGURES)
+        raise unknown_name(_("Figure"), name, FIGURES, quantities=False)
     return FIGURES[name]

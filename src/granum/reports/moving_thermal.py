@@ -41,6 +41,7 @@ NITRATE = {  # Miller and Rawlings (1994), with the data of Chung, Ma and Braatz
     "seed_size": "100 um",
     "seed_width": "20 um",
 }
+SEEN = 1e-5  # g/(kg µm): below the axis of the packets, where rounding is
 COOLING = {"law": "power_cooling", "temperature_start": "32 degC", "temperature_end": "28 degC"}
 TRAY = {  # Geankoplis, problem 9.7-2: the moistures of its drying curve
     "start": 0.29,
@@ -115,10 +116,10 @@ def batch(seed_mass_per_solvent: str, duration: str) -> go.Figure:
 
 
 def _runs(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Each stretch of a line that has numbers, with ten points at most and a gap behind it."""
-    there = np.flatnonzero(np.isfinite(y))
+    """Each stretch of a line that is seen, with sixteen points at most and a gap behind it."""
+    there = np.flatnonzero(y > SEEN)
     stretches = np.split(there, np.flatnonzero(np.diff(there) > 1) + 1)
-    kept = [s[np.linspace(0, len(s) - 1, min(len(s), 10)).round().astype(int)] for s in stretches if len(s)]
+    kept = [s[np.linspace(0, len(s) - 1, min(len(s), 16)).round().astype(int)] for s in stretches if len(s)]
     gap = [np.nan]
     return tuple(np.concatenate([part for k in kept for part in (v[k], gap)]) for v in (x, y))  # type: ignore[return-value]
 
@@ -127,7 +128,7 @@ def _runs(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _isolines() -> dict[float, tuple[np.ndarray, np.ndarray]]:
     """Temperature, °C, and humidity, g/kg, along relative humidities."""
     found = {}
-    for share, hottest in ((1.0, 41.0), (0.5, 54.0), (0.2, 74.0), (0.1, 92.0), (0.05, 112.0)):
+    for share, hottest in ((1.0, 42.0), (0.5, 55.0), (0.2, 75.0), (0.1, 93.0), (0.05, 113.0)):
         t = np.linspace(0.0, hottest, 25)
         state = gr.humid_gas.state(temperature=t + ZERO_CELSIUS, relative_humidity=share)
         found[share] = (t, 1e3 * np.asarray(state.humidity_ratio))
@@ -139,7 +140,8 @@ def dryer_air(temperature_fresh: str, temperature_inlet: str, relative_humidity_
     drawn = figure(axis_title("temperature", "degC"), axis_title("humidity_ratio", "g/kg"))
     for share, (t, w) in _isolines().items():
         add_line(drawn, t, w, _("relative humidity"), color=GAS, width=1, showlegend=False)
-        add_label(drawn, t[-1], w[-1], f"{format_number(100 * share)} %", color=GAS, xanchor="left")
+        there = float(np.interp(47.0, w, t))
+        add_label(drawn, there, 47.0, f"{format_number(100 * share)} %", color=GAS, bgcolor="white")
     air = gr.drying.dryer_balance(
         dry_solid_flow="1 kg/hour",
         moisture_dry_basis_inlet=0.54,
@@ -194,7 +196,7 @@ def drying_curve(temperature: str, thickness: str, critical_moisture: str) -> go
     add_line(drawn, [0.0, never], [start, floor], _("if the rate stayed constant"), color=GAS, dash="dash")
     add_line(drawn, hours, np.asarray(moisture), words)
     first = float(whole.drying_time_constant_rate) / 3600
-    add_points(drawn, [first], [critical], _("critical moisture"), color=CAUTION)
+    add_points(drawn, [first], [critical], axis_title("critical_moisture"), color=CAUTION)
     drawn.update_xaxes(range=[0.0, 12.0])
     drawn.update_yaxes(range=[0.0, 0.3])
     return drawn
@@ -229,7 +231,14 @@ def freeze_drying(temperature_shelf: str, pressure_chamber: str, frozen_height: 
     shelf, front, bottom = (np.asarray(t) - ZERO_CELSIUS for t in (path.shelf, path.front, path.bottom))
     drawn = figure(axis_title("time", "hour"), axis_title("temperature", "degC"))
     kept = np.r_[0 : len(hours) - 17 : 6, len(hours) - 17 : len(hours) : 2]  # the shelf warms in a short time
-    add_line(drawn, hours[[0, -17, -1]], shelf[[0, -17, -1]], _("shelf"), color=HEAT, dash="dash")
+    add_line(
+        drawn,
+        hours[[0, -17, -1]],
+        shelf[[0, -17, -1]],
+        axis_title("temperature_shelf"),
+        color=HEAT,
+        dash="dash",
+    )
     below = _("below the ice: {temperature} °C at most").format(temperature=format_number(bottom.max(), 3))
     add_line(drawn, hours[kept], bottom[kept], below)
     gone = _("ice front: through after {hours} h").format(hours=format_number(float(total) / 3600, 3))
