@@ -51,7 +51,8 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
 
 def told(error: Mapping[str, Any]) -> dict[str, Any]:
     """An error as JSON with the message of a page."""
-    kept = (error.get("name"), error.get("did_you_mean")) if error.get("as_it_is") else ()
+    error = dict(error)
+    kept = (error.get("name"), error.get("did_you_mean")) if error.pop("as_it_is", False) else ()
     return {**error, "message": page_words(str(error["message"]), error.get("allowed"), kept)}
 
 

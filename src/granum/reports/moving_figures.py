@@ -218,5 +218,5 @@ FIGURES = {
 def moving_figure(name: str) -> MovingFigure:
     """A figure by name."""
     if name not in FIGURES:
-        raise unknown_name(_("Figure"), name, FIGURES, quantities=False)
+        raise unknown_name(_("Figure with sliders"), name, FIGURES, quantities=False)
     return FIGURES[name]

@@ -205,16 +205,7 @@ def drying_curve(temperature: str, thickness: str, critical_moisture: str) -> go
 @jax.jit
 def _vial(shelf: Any, pressure: Any, volume: Any) -> Any:
     """Time and history of a vial in primary drying, SI."""
-    names = ("contact", "gas", "saturation", "R0", "A1", "A2")
-    vial = vial_of(
-        VIAL["area"],
-        VIAL["area_product"],
-        volume,
-        VIAL["concentration"],
-        VIAL["solid_density"],
-        *(VIAL[name] for name in names),
-        pressure,
-    )
+    vial = vial_of(volume=volume, pressure=pressure, **VIAL)
     return dry(vial, FROZEN, shelf, RAMP)
 
 
@@ -253,7 +244,7 @@ def freeze_drying(temperature_shelf: str, pressure_chamber: str, frozen_height: 
         hollow=True,
     )
     drawn.update_xaxes(range=[0.0, 36.0])
-    drawn.update_yaxes(range=[-40.0, 30.0])
+    drawn.update_yaxes(range=[-45.0, 30.0])
     return drawn
 
 
