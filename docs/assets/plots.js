@@ -26,10 +26,10 @@ if (colors) {
   });
 }
 
-/** What Plotly draws in a place: its legend goes below where the place is narrow or the names are many. */
+/** What Plotly draws in a place: its legend goes below where the place is narrow, the names are many, or change as they move. */
 function drawn(place, { data, layout }) {
   const narrow = place.clientWidth < 560;
-  const below = narrow || data.filter((t) => t.name && t.showlegend !== false).length > 6;
+  const below = narrow || place.closest('.moving') || data.filter((t) => t.name && t.showlegend !== false).length > 6;
   const legend = below ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: -0.2, yanchor: 'top' } : layout.legend;
   const margin = narrow ? { ...layout.margin, l: 50, r: 8 } : layout.margin;
   const yaxis = { ...layout.yaxis, automargin: true }; // a long title would stand on the numbers
