@@ -7,11 +7,29 @@ document.querySelectorAll('nav').forEach((nav) => {
   heard.add(name);
 });
 document.querySelectorAll('pre > code, .equation').forEach((place) => { place.tabIndex = 0; });
+// The switch of the colors is two radio buttons, each beside the hidden label of the other, with the name of the other.
+const colors = document.querySelector('form[data-md-component=palette]');
+if (colors) {
+  const group = document.createElement('div');
+  group.setAttribute('role', 'radiogroup');
+  group.setAttribute('aria-label', 'Colors');
+  group.append(...colors.childNodes);
+  colors.append(group);
+  const buttons = [...colors.querySelectorAll('input')];
+  const names = buttons.map((button) => button.getAttribute('aria-label'));
+  buttons.forEach((button, i) => {
+    const other = (i + 1) % buttons.length;
+    button.setAttribute('aria-label', names[other]);
+    const label = button.nextElementSibling;
+    label.removeAttribute('for');
+    label.addEventListener('click', () => buttons[other].click());
+  });
+}
 
-/** What Plotly draws in a place: its legend goes below where the place is narrow or the names are many. */
+/** What Plotly draws in a place: its legend goes below where the place is narrow, the names are many, or change as they move. */
 function drawn(place, { data, layout }) {
   const narrow = place.clientWidth < 560;
-  const below = narrow || data.filter((t) => t.name && t.showlegend !== false).length > 6;
+  const below = narrow || place.closest('.moving') || data.filter((t) => t.name && t.showlegend !== false).length > 6;
   const legend = below ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: -0.2, yanchor: 'top' } : layout.legend;
   const margin = narrow ? { ...layout.margin, l: 50, r: 8 } : layout.margin;
   const yaxis = { ...layout.yaxis, automargin: true }; // a long title would stand on the numbers

@@ -117,6 +117,25 @@ sliced = {mm: float(d.drying_time_diffusion(0.1, f"{mm / 2} mm", "3e-10 m^2/s"))
 cubes = {mm: float(d.drying_time_diffusion(0.1 ** (1 / 3), f"{mm / 2} mm", "3e-10 m^2/s")) for mm in (5, 10)}
 drop = float(d.drying_time_diffusion(0.1, "50 um", "3e-10 m^2/s", shape="sphere"))
 
+
+def vial(shelf, pressure):
+    """A fill of 7 mm in primary drying, at °C and Pa, in the vial of Shivkumar and others."""
+    per_volume = float(d.frozen_height("1 mL", "3.14 cm^2", "0.05 g/mL"))
+    return d.primary_drying(
+        pressure,
+        shelf + ZERO,
+        "3.8 cm^2",
+        "3.14 cm^2",
+        1e-6 * 7e-3 / per_volume,
+        "0.05 g/mL",
+        "2.75e-4 cal/(s*K*cm^2)",
+        "8.93e-4 cal/(s*K*cm^2*torr)",
+        "1.4 cm^2*hour*torr/g",
+        "16 cm*hour*torr/g",
+        vial_coefficient_saturation="0.46 1/torr",
+    )
+
+
 # ---- savings
 exhaust = spent(80, 0.2)
 again = spent(80, 0.5, recirculated_fraction=0.7)

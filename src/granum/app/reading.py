@@ -43,7 +43,7 @@ class Page(NamedTuple):
 def page(name: str) -> Page:
     """A page by name."""
     if name not in pages():
-        raise unknown_name(_("Page"), name, pages())
+        raise unknown_name(_("Page"), name, pages(), quantities=False)
     text = pages()[name].read_text(encoding="utf-8")
     headings = [found.replace("`", "") for found in _HEADING.findall(_FENCE.sub("", text))]
     code = "fr" if name.startswith("fr/") else "en"

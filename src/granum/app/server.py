@@ -469,7 +469,7 @@ def _files(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
     async def example(name: str) -> Response:
         """The text of a shipped case file."""
         if name not in examples():
-            raise unknown_name(_("Example"), name, examples())
+            raise unknown_name(_("Example"), name, examples(), quantities=False)
         return Answer({"path": name, "text": examples()[name].read_text(encoding="utf-8")})
 
     @app.get("/favicon.ico")

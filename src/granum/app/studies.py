@@ -161,7 +161,7 @@ def _declared_study(payload: Mapping[str, Any]) -> Any:
     found = studies_of_text(str(payload["case"]), folder=Path(str(folder)) if folder else None)
     name = str(payload["declared"])
     if name not in found:
-        raise unknown_name(_("Study"), name, found)
+        raise unknown_name(_("Study"), name, found, quantities=False)
     _not_too_many(found[name].options)
     return found[name]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from granum.core import registry
@@ -23,9 +23,9 @@ _BEGINNING = re.compile(r"^.|(?<=[^\W\d]{2}[.?!] )[^\W\d_](?=[^\W\d_.]+[ ,])")
 _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
 
 
-def page_words(message: str, allowed: object = None) -> str:
+def page_words(message: str, allowed: object = None, kept: Collection[object] = ()) -> str:
     """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by
-    it; a quoted key is meant as such.
+    it; a quoted key is meant as such, and so are names that are to be ``kept``.
 
     >>> page_words(
     ...     "sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1."
@@ -35,7 +35,12 @@ def page_words(message: str, allowed: object = None) -> str:
     text = _STUDY.sub("", _PLACE.sub(r"\1: ", message))
     text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
     text = _WITH_LABEL.sub(_labelled, text)
-    text = _ALONE.sub(lambda found: Parameter(found[1]).label if quantity_in(found[1]) else found[0], text)
+    text = _ALONE.sub(
+        lambda found: (
+            Parameter(found[1]).label if quantity_in(found[1]) and found[1] not in kept else found[0]
+        ),
+        text,
+    )
     text = _KEY.sub(lambda found: _title(found[0]), text)
     text = _EXAMPLE.sub(lambda found: f"{format_number(1.5)} {pretty_unit(found[1])}", text)
     if isinstance(allowed, list) and allowed:
@@ -46,7 +51,9 @@ def page_words(message: str, allowed: object = None) -> str:
 
 def told(error: Mapping[str, Any]) -> dict[str, Any]:
     """An error as JSON with the message of a page."""
-    return {**error, "message": page_words(str(error["message"]), error.get("allowed"))}
+    error = dict(error)
+    kept = (error.get("name"), error.get("did_you_mean")) if error.pop("as_it_is", False) else ()
+    return {**error, "message": page_words(str(error["message"]), error.get("allowed"), kept)}
 
 
 def noticed(flags: list[Any]) -> list[Any]:

@@ -61,8 +61,12 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
-def unknown_name(what: str, name: str, known: Iterable[str], where: str = "") -> InputError:
-    """The one error for a name that does not exist: it lists or suggests those that do."""
+def unknown_name(
+    what: str, name: str, known: Iterable[str], where: str = "", *, quantities: bool = True
+) -> InputError:
+    """The one error for a name that does not exist: it lists or suggests those that do. Names that are not
+    ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name.
+    """
     known = sorted(known)
     close = nearest(name, known)
     name = name if len(name) <= _LONGEST_NAME else name[:_LONGEST_NAME] + "…"
@@ -73,7 +77,7 @@ def unknown_name(what: str, name: str, known: Iterable[str], where: str = "") ->
     elif known:
         shown = ", ".join(known[:12]) + (" …" if len(known) > 12 else "")
         message += " " + _("Known names: {names}.").format(names=shown)
-    return InputError(message, name=name, did_you_mean=close)
+    return InputError(message, name=name, did_you_mean=close, as_it_is=None if quantities else True)
 
 
 def reason_of(problem: OSError) -> str:

@@ -16,10 +16,13 @@ import plotly.graph_objects as go
 
 from granum.core.charts import axis_title
 from granum.core.errors import InputError
+from granum.core.glossary import glossary
 from granum.core.i18n import _, current_language
+from granum.core.parameters import Parameter
 from granum.core.units import format_number
 
 DIGITS = 4  # of a coordinate
+JUMP, LEAST = 2.0, 0.02  # a step of a line, over those before and after it, and over its height
 
 
 class Slider(NamedTuple):
@@ -36,7 +39,8 @@ class Slider(NamedTuple):
     @property
     def label(self) -> str:
         """What stands before it."""
-        return axis_title(self.name, self.unit)
+        known = self.name in glossary()  # otherwise a word with an ending, as temperature_inlet
+        return axis_title(self.name, self.unit, None if known else Parameter(self.name).label)
 
     def positions(self) -> list[float]:
         """Where it stops, with the start in place of the stop that is nearest to it."""
@@ -103,6 +107,22 @@ class MovingFigure(NamedTuple):
         names = [slider.name for slider in self.sliders]
         drawn = (self.at(dict(zip(names, chosen, strict=True))) for chosen in product(*stops))
         return first | {"sliders": self.told(), "frames": [_difference(first, other) for other in drawn]}
+
+
+def thin(drawn: go.Figure, points: int) -> None:
+    """Lines with fewer points, even on their axis: a page carries them many times. Their ends stay, and both
+    sides of a jump.
+    """
+    spaced = np.geomspace if drawn.layout.xaxis.type == "log" else np.linspace
+    for trace in drawn.data:
+        if trace.mode == "lines" and len(trace.x) > points:
+            x, y = np.asarray(trace.x), np.asarray(trace.y)
+            kept = np.abs(x[:, None] - spaced(x[0], x[-1], points)).argmin(axis=0)
+            step = np.pad(np.abs(np.diff(y)), 1)
+            at, around = step[1:-1], np.maximum(step[:-2], step[2:])
+            jumps = np.flatnonzero((at > JUMP * around) & (at > LEAST * np.ptp(y)))
+            kept = np.unique(np.concatenate([kept, jumps, jumps + 1]))
+            trace.x, trace.y = x[kept], y[kept]
 
 
 def _plain(part: Any) -> Any:

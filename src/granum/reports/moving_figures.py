@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Any
+
+import jax
+import jax.numpy as jnp
 import numpy as np
 import plotly.graph_objects as go
 
 import granum as gr
 from granum.core import registry
-from granum.core.charts import ACCENT, CAUTION, LINES, add_line, add_points, axis_title, figure
+from granum.core.charts import ACCENT, CAUTION, LINES, SOLID, add_line, axis_title, figure
 from granum.core.errors import unknown_name
 from granum.core.i18n import _
-from granum.reports.moving import MovingFigure, Slider
+from granum.numerics import Anderson
+from granum.reports.moving import MovingFigure, Slider, thin
+from granum.reports.moving_thermal import THERMAL
 
 WATER = {"fluid_density": 998.2, "dynamic_viscosity": "1.002 mPa s"}
 LIMESTONE = {"law": "vesilind", "vesilind_velocity": "1.20 m/hour", "vesilind_coefficient": "8.8 mL/g"}
+PASSES, COMPONENTS = 100, 24  # through a recycle, and in it
 LEAF = {  # Geankoplis, example 14.2-1
     "area": "0.0439 m2",
     "pressure_drop": "338 kPa",
@@ -22,18 +30,10 @@ LEAF = {  # Geankoplis, example 14.2-1
 }
 
 
-def _thin(drawn: go.Figure, points: int) -> None:
-    """Lines with fewer points, their ends among them: a page carries them many times."""
-    for trace in drawn.data:
-        if trace.mode == "lines" and len(trace.x) > points:
-            kept = np.linspace(0, len(trace.x) - 1, points).round().astype(int)
-            trace.x, trace.y = np.asarray(trace.x)[kept], np.asarray(trace.y)[kept]
-
-
 def drag(particle_diameter: str) -> go.Figure:
     """The point of a quartz grain that settles in water, on the curves of drag."""
     drawn = gr.particles.drag_chart(particle_diameter, 2650, **WATER)
-    _thin(drawn, 45)
+    thin(drawn, 45)
     drawn.update_yaxes(range=[-1.2, 5.0])
     drawn.update_xaxes(range=[-3.0, 6.0])
     return drawn
@@ -61,7 +61,7 @@ def thickener(area: str, underflow_volume_flow: str) -> go.Figure:
         area=area,
         settling=LIMESTONE,
     )
-    _thin(drawn, 25)
+    thin(drawn, 25)
     drawn.update_xaxes(range=[0.0, 900.0])
     drawn.update_yaxes(range=[0.0, 100.0])
     return drawn
@@ -110,41 +110,65 @@ def compressible(compressibility: str) -> go.Figure:
 def cyclone(volume_flow: str, diameter: str) -> go.Figure:
     """Grade efficiency of a Stairmand cyclone by five theories."""
     drawn = gr.cyclones.gas_cyclone_chart(volume_flow, 2000, diameter)
-    _thin(drawn, 40)
+    thin(drawn, 40)
     drawn.update_xaxes(range=[-0.5, 2.0])
     drawn.update_yaxes(range=[0.0, 100.0])
     return drawn
 
 
-def population(growth_rate: str, residence_time: str) -> go.Figure:
-    """Population density of crystals in an MSMPR with a given birth of nuclei; the point is the median by
-    mass.
-    """
-    size = np.linspace(0.0, 2e-3, 30)  # m
-    length = 1e-3 * float(growth_rate.split()[0]) * float(residence_time.split()[0])  # mm
-    density = gr.crystallization.population_density(size, 1.0, growth_rate, residence_time)
-    drawn = figure(
-        axis_title("crystal_size", "mm"),
-        axis_title("", "", _("crystals over those of size zero")),
-        y_log=True,
+def fluidization(particle_diameter: str, particle_density: str, height: str) -> go.Figure:
+    """Pressure drop of the sharp sand of Kunii and Levenspiel in air, or of another one of its shape."""
+    drawn = gr.fluidization.pressure_velocity_chart(
+        height, particle_diameter, particle_density, 1.2, "18 uPa s", 0.55, 0.50, 0.67
     )
-    add_line(drawn, 1e3 * size, np.asarray(density), _("population density"))
-    median = 3.672 * length  # half of the mass of an exponential distribution lies below
-    add_points(drawn, [median], [np.exp(-3.672)], _("median of the mass"), color=CAUTION)
-    drawn.update_xaxes(range=[0.0, 2.0])
-    drawn.update_yaxes(range=[-6.0, 0.0])
+    thin(drawn, 24)
+    drawn.update_xaxes(range=[-3.0, 1.0])
+    drawn.update_yaxes(range=[0.0, 25.0])
     return drawn
 
 
-def plate(thickness: str, diffusivity: str) -> go.Figure:
-    """Moisture ratio of a plate that dries from both faces."""
-    hours = np.linspace(0.05, 12.0, 40)
-    half = 0.5 * float(thickness.split()[0])
-    ratio = gr.drying.moisture_ratio_plate(3600 * hours, f"{half} mm", diffusivity)
-    drawn = figure(axis_title("drying_time", "hour"), axis_title("moisture_ratio"))
-    add_line(drawn, hours, np.asarray(ratio), _("moisture ratio"))
-    drawn.update_xaxes(range=[0.0, 12.0])
-    drawn.update_yaxes(range=[0.0, 1.0])
+@partial(jax.jit, static_argnums=0)
+def _passes(method: Anderson | None, returned: Any, damping: Any) -> Any:
+    """Distance from rest before each pass through a loop of many components, of which shares from nothing to
+    the most come back; by a method, or by substitution with damped steps.
+    """
+    shares = returned * jnp.linspace(0.0, 1.0, COMPONENTS)
+    fed = jnp.ones(COMPONENTS)
+    rest = fed / (1.0 - shares)
+
+    def far(state: Any) -> Any:
+        return jnp.max(jnp.abs(state - rest)) / jnp.max(rest)
+
+    def change(state: Any) -> Any:
+        return fed + shares * state - state
+
+    start = jnp.zeros(COMPONENTS)
+    if method is None:
+        return jax.lax.scan(lambda x, _n: (x + damping * change(x), far(x)), start, length=PASSES + 1)[1]
+    return jax.lax.scan(
+        lambda carry, _n: (method.proceed(carry, change(carry[0])), far(carry[0])),
+        method.begin(start),
+        length=PASSES + 1,
+    )[1]
+
+
+def recycle(returned_fraction: str, damping: str) -> go.Figure:
+    """A recycle that comes to rest, by repeated substitution and by the method that lines are solved with."""
+    numbers = float(returned_fraction), float(damping)
+    count = np.arange(0, PASSES + 1, 2)
+    drawn = figure(
+        axis_title("", "", _("passes through the loop")),
+        axis_title("", "", _("distance from rest")),
+        y_log=True,
+    )
+    for method, name, color in (
+        (None, _("repeated substitution"), SOLID),
+        (Anderson(), _("Anderson's method"), ACCENT),
+    ):
+        far = np.asarray(_passes(method, *numbers))[count]
+        add_line(drawn, count, np.where(far > 1e-13, far, np.nan), name, color=color)  # below is rounding
+    drawn.update_xaxes(range=[0.0, PASSES])
+    drawn.update_yaxes(range=[-10.0, 1.0], dtick=2)
     return drawn
 
 
@@ -173,25 +197,26 @@ FIGURES = {
         ),
         cyclone,
     ),
-    "population": MovingFigure(
+    "fluidization": MovingFigure(
         (
-            Slider("growth_rate", "um/hour", 20, 200, 32, 9, True),
-            Slider("residence_time", "hour", 0.5, 8, 3.4, 9, True),
+            Slider("particle_diameter", "um", 80, 500, 160, 7, True),
+            Slider("particle_density", "kg/m^3", 1500, 3000, 2600, 4),
+            Slider("height", "m", 0.5, 1.5, 1.0, 3),
         ),
-        population,
+        fluidization,
     ),
-    "plate": MovingFigure(
+    "recycle": MovingFigure(
         (
-            Slider("thickness", "mm", 2, 12, 5, 9),
-            Slider("diffusivity", "m^2/s", 1e-10, 1e-9, 3e-10, 7, True),
+            Slider("returned_fraction", "", 0.5, 0.98, 0.76, 13),
+            Slider("damping", "", 0.4, 2.0, 1.0, 9),
         ),
-        plate,
+        recycle,
     ),
-}
+} | THERMAL
 
 
 def moving_figure(name: str) -> MovingFigure:
     """A figure by name."""
     if name not in FIGURES:
-        raise unknown_name(_("Figure"), name, FIGURES)
+        raise unknown_name(_("Figure with sliders"), name, FIGURES, quantities=False)
     return FIGURES[name]

@@ -50,7 +50,7 @@ def exercise(name: str) -> dict[str, Any]:
     """An exercise as it is declared."""
     found = {e["id"]: e for e in declared()["exercise"]}
     if name not in found:
-        raise unknown_name(_("Exercise"), name, found)
+        raise unknown_name(_("Exercise"), name, found, quantities=False)
     return found[name]
 
 

@@ -10,7 +10,7 @@ const RAISED = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 const raised = (power) =>
   (power.startsWith('-') ? '⁻' : '') + [...power.replace(/\D/g, '')].map((digit) => RAISED[digit]).join('');
 /** A number as it is printed: 1.07 × 10⁸ for 1.07e8; it may be typed so as well. */
-const printed = (text) => text.replace(/(\d)e([-+]?\d+)/g, (_whole, last, power) => `${last} × 10${raised(power)}`);
+export const printed = (text) => text.replace(/(\d)e([-+]?\d+)/g, (_whole, last, power) => `${last} × 10${raised(power)}`);
 const NUMBER =
   /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…)\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+|\s*[×x·*]\s*10(?:\^?[-+−]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?:\/\d+(?![\d.,]))?/iy;
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
