@@ -5,6 +5,8 @@ numbers.
 from __future__ import annotations
 
 import io
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from tests.sharing.places import EXAMPLES
 import granum as gr
 from granum.estimation import CardData, fit
 from granum.estimation.diagnostics import diagnose
+from granum.estimation.verdicts import parameter_notes
 from granum.filtration.lab_tests.rate_tests import VariablePressureTest
 from granum.flowsheet.fitted import fit_notices
 from granum.settling import kynch
@@ -111,3 +114,17 @@ def test_a_fitted_formula_says_its_defaults_and_its_range() -> None:
     ).fit()
     assert found.ranges == {"pressure_drop": (1e4, 1e6)}
     assert found.defaults == {"reference_pressure": 1.0}
+
+
+@pytest.mark.parametrize("known", [0.0, 1.0])
+def test_a_covariance_that_is_no_number_does_not_name_a_parameter_twice(known: float) -> None:
+    """With nothing known all parameters are named once; two of three that are known are the pair."""
+    covariance = np.full((3, 3), np.nan)
+    if known:
+        covariance[1:, 1:] = [[1.0, 0.99], [0.99, 1.0]]
+    unknown = SimpleNamespace(interval_95=(np.nan, np.nan))
+    estimates: Any = dict.fromkeys(("share", "rate_1", "rate_2"), unknown)
+    problem: Any = None
+    (told,) = parameter_notes(estimates, covariance, {}, np.inf, problem, "card")
+    counts = [told["message"].count(n) for n in estimates]
+    assert counts == ([0, 1, 1] if known else [1, 1, 1])

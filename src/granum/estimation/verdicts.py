@@ -172,25 +172,21 @@ def parameter_notes(
     if condition >= COLLINEAR:
         deviation = np.sqrt(np.diag(covariance))
         with np.errstate(invalid="ignore", divide="ignore"):
-            correlation = np.abs(
-                np.nan_to_num(covariance / np.outer(deviation, deviation)) - np.eye(len(deviation))
-            )
+            correlation = np.abs(covariance / np.outer(deviation, deviation))
+        correlation[~np.isfinite(correlation)] = -1.0
+        np.fill_diagonal(correlation, -1.0)
         i, j = np.unravel_index(int(np.argmax(correlation)), correlation.shape)
         names = list(estimates)
-        found.append(
-            note(
-                "poorly identified",
-                _(
-                    "'{one}' and '{other}' can hardly be told apart by these data (condition {condition})."
-                ).format(
-                    one=names[i],
-                    other=names[j],
-                    condition=f"{condition:.0f}" if np.isfinite(condition) else "∞",
-                ),
-                card,
-                names[i],
-            )
-        )
+        if correlation[i, j] >= 0.0:
+            sentence = _(
+                "'{one}' and '{other}' can hardly be told apart by these data (condition {condition})."
+            ).format(one=names[i], other=names[j], condition=_condition(condition))
+        else:
+            sentence = _(
+                "These data do not determine all of {names} (condition {condition}): their covariance "
+                "cannot be calculated."
+            ).format(names=", ".join(names), condition=_condition(condition))
+        found.append(note("poorly identified", sentence, card, names[i]))
     for name, estimate in estimates.items():
         low, high = estimate.interval_95
         if name not in held and low < 0.0 < high:
@@ -203,3 +199,7 @@ def parameter_notes(
                 )
             )
     return found
+
+
+def _condition(condition: float) -> str:
+    return f"{condition:.0f}" if np.isfinite(condition) else "∞"
