@@ -2,6 +2,7 @@
 
 from functools import cache
 from math import log2
+from typing import Any
 
 import numpy as np
 from chapters import said
@@ -20,7 +21,7 @@ TONNE = 1e3
 # ---- sizes
 
 
-def filter_cost(area, kind="plate_and_frame_filter", index=397.0):
+def filter_cost(area: float, kind: Any = "plate_and_frame_filter", index: float = 397.0):
     return c.equipment_cost_by_area(area, kind, index).purchased_cost
 
 
