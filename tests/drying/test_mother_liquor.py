@@ -70,3 +70,35 @@ def test_a_solute_without_crystals_is_named() -> None:
     feed = empty(mixture).replace(solid=jnp.array([[1.0]]), liquid=jnp.array([0.1, 0.03]))
     with pytest.raises(GranumError, match="potassium nitrate"):
         DRYERS["rotary"][0](feed, empty(mixture, 400.0).replace(gas=jnp.array([1.0, 0.01])))
+
+
+EPSOM = mixture_of(
+    ["water", "magnesium sulfate"],
+    ["quartz", "magnesium sulfate heptahydrate"],
+    ["dry air", "water"],
+    [1e-4, 3e-4, 9e-4],
+)
+SHARE = 120.366 / 246.474  # of the heptahydrate that is magnesium sulfate, by atomic masses
+
+
+@pytest.mark.parametrize("name", DRYERS)
+def test_a_hydrate_keeps_its_water_of_crystallization(name: str) -> None:
+    """Of 20 g of water with 36 % of salt on it, 7.6 g go into crystals and cannot leave."""
+    dryer, flow = DRYERS[name]
+    solid = jnp.array([[0.0, 0.0], [0.4, 0.6]]) * 0.3
+    feed = empty(EPSOM, 298.15).replace(solid=solid, liquid=0.02 * jnp.array([1.0, 0.36]))
+    gas = empty(EPSOM, 320.0).replace(gas=flow * jnp.array([1.0, 0.008]))
+    made = dryer.operate(feed=feed, gas=gas)
+    product, exhaust, heat_duty = made.outlets
+    closed = closure([feed, gas], [product, exhaust], heat_duty)
+    assert float(closed.mass) < 1e-12
+    assert float(closed.energy) < 1e-12
+    water, salt = map(float, product.liquid)
+    # the liquor left is still the saturated one, and what it lost is hydrate
+    assert salt / water == pytest.approx(0.36, rel=1e-9)
+    grown = float(jnp.sum(product.solid[1])) - 0.3
+    assert grown == pytest.approx((0.02 * 0.36 - salt) / SHARE, rel=1e-4)
+    evaporated = float(exhaust.gas[1] - gas.gas[1])
+    assert evaporated == pytest.approx(0.02 - water - grown * (1.0 - SHARE), rel=1e-4)
+    assert float(made.figures.evaporation_rate) == pytest.approx(evaporated, rel=1e-9)
+    assert 0.0 < evaporated < 0.02 - 0.02 * 0.36 * (1.0 - SHARE) / SHARE

@@ -308,6 +308,9 @@ from granum.drying.gas_solid.kinetics import (
 from granum.drying.gas_solid.layer import (
     LayerDryer as LayerDryer,
 )
+from granum.drying.gas_solid.liquor import (
+    Deposit as Deposit,
+)
 from granum.drying.gas_solid.matter import (
     Matter as Matter,
 )

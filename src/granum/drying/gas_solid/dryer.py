@@ -182,11 +182,11 @@ class Dryer(Unit):
         self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any
     ) -> DryerFigures:
         feed, exhaust = counted(feed), outlets.exhaust
+        left = counted(outlets.product).liquid[0] + counted(exhaust).liquid[0] - counted(gas).liquid[0]
         found, humid = inside.profile, HumidMixture(feed.mixture)
         some = found.shares > 1e-9
-        evaporated = feed.liquid[0] - outlets.product.liquid[0] - (exhaust.liquid[0] - gas.liquid[0])
         return DryerFigures(
-            evaporation_rate=evaporated,
+            evaporation_rate=feed.liquid[0] - left,
             moisture_dry_basis=dried_moisture(outlets, gas),
             moisture_dry_basis_highest=found.wettest,
             temperature_product=outlets.product.temperature,
@@ -419,5 +419,5 @@ def _moisture(name: str, x: Any, dryer: Any, feed: Stream, gas: Stream, gas_velo
     changed = eqx.tree_at(lambda d: getattr(d, name), dryer, jnp.exp(x))
     if gas_velocity is not None:
         gas = gas.part(gas=gas_velocity * changed.extent() * gas.gas_density / gas.gas_flow)
-    water, dissolved = jnp.sum(changed.profile(feed, gas).water), jnp.sum(composition(feed))
-    return water * (1.0 + dissolved) / (counted(feed).solid_flow - water * dissolved)
+    found = jnp.sum(changed.profile(feed, gas).water)
+    return moistened(counted(feed), found, composition(feed)).moisture_dry_basis

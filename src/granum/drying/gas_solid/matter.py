@@ -14,7 +14,7 @@ import jax.numpy as jnp
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.drying.gas_solid.liquor import crystals
+from granum.drying.gas_solid.liquor import deposits
 from granum.numerics import safe_divide
 from granum.numerics.quick_roots import straight_root
 from granum.streams.equilibrium import HumidMixture
@@ -37,7 +37,7 @@ class Matter(eqx.Module):
     solid_shares: Any  # species × classes, each class adding up to 1
     gas_shares: Any  # of the dry gas; the vapor's share is zero
     pressure: Any
-    # per kg of the liquid, one for each further liquid: what leaves it as crystal when that evaporates
+    # per kg of the liquid that can leave, one for each further liquid: what crystallizes as it does
     dissolved: Any = ()
 
     @classmethod
@@ -76,11 +76,10 @@ class Matter(eqx.Module):
 
     def liquid_enthalpy(self, T: Any) -> Any:
         """The liquid, with what it costs to keep in solution what is dissolved in it."""
-        found = self.mixture.liquids[0].enthalpy(T)
-        for i, row in enumerate(crystals(self.mixture) if len(self.dissolved) else ()):
-            found += self.dissolved[i] * (
-                self.mixture.liquids[i + 1].enthalpy(T) - self.mixture.solids[row].enthalpy(T)
-            )
+        solvent = found = self.mixture.liquids[0].enthalpy(T)
+        for i, (row, bound) in enumerate(deposits(self.mixture) if len(self.dissolved) else ()):
+            crystal = (1.0 + bound) * self.mixture.solids[row].enthalpy(T)
+            found += self.dissolved[i] * (self.mixture.liquids[i + 1].enthalpy(T) + bound * solvent - crystal)
         return found
 
     def vapor_enthalpy(self, T: Any) -> Any:

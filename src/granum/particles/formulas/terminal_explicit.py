@@ -64,7 +64,7 @@ def terminal_velocity_stokes(
 
 @formula(
     source="allen1900; perry2008, section 6",
-    title="Terminal velocity in a power-law fluid",
+    title="Terminal velocity by a power law of drag",
     equation=r"v_t^{2-n} = \frac{4}{3}\frac{g(\rho_p-\rho_f)d_p^{1+n}}{a\,\rho_f^{1-n}\eta^{n}}",
     typical={"drag_exponent": (0.0, 1.0), "drag_factor": (0.4, 26.0)},
 )
