@@ -224,6 +224,10 @@ def figure_isotherms():
     return drawing
 
 
+epsom = gr.materials.solubility("25 degC", system="magnesium sulfate")
+bound_by_epsom = epsom.solubility_per_solvent * (epsom.crystal_per_solute - 1.0)
+
+
 def figure_curve():
     return drying_curve().figure
 
