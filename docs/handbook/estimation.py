@@ -350,7 +350,7 @@ def figure_profiles():
         drawing,
         np.array([-0.1, 0.35]),
         np.array([limit, limit]),
-        said("limit at 95 %", "seuil à 95 %"),
+        said("limit at 95%", "seuil à 95 %"),
         color=LINES[2],
         dash=DASHES[2],
     )
