@@ -52,6 +52,12 @@ def test_sobol_indices_of_ishigami() -> None:
     }
 
 
+def test_sobol_intervals_are_the_same_each_time() -> None:
+    """The intervals are resampled: also of the first seed, 0, they repeat."""
+    found = studies.sobol(ISHIGAMI, CIRCLE, samples=64)
+    assert found.indices() == found.indices()
+
+
 def test_monte_carlo_against_closed_forms() -> None:
     """Stokes velocity goes with the square of a lognormal size: lognormal again, with twice the log
     deviation.

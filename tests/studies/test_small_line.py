@@ -247,3 +247,16 @@ def test_neighbor_of_a_solved_line_takes_few_passes(tmp_path) -> None:
         assert bool(found.converged)
         assert float(found.values["divide.side_fraction"]) == pytest.approx(feed / 4.0, rel=1e-9)
         assert max(map(int, found.solution.steps)) <= 12
+
+
+def test_a_figure_is_a_path_an_expression_or_a_quantity(line) -> None:
+    """A name is given under ``[quantities]`` alone. Of 1 kg/s fed with s = 1/4, 4 kg/s are heated."""
+    again = studies.subject_of(line, quantities={"passes": "hot.mass_flow / out.mass_flow"})
+    table = {
+        "over": {"divide.side_fraction": [0.25]},
+        "outputs": ["out.mass_flow", "passes", "recycle.mass_flow / out.mass_flow"],
+    }
+    found = studies.Study.of("sweep", table, again).run()
+    assert found.cases.y[0] == pytest.approx([1.0, 4.0, 3.0], rel=1e-9)
+    with pytest.raises(GranumError, match=r"declare 'passes' under \[quantities\]"):
+        studies.Study.of("sweep", {**table, "outputs": ["passes = hot.mass_flow"]}, again).run()

@@ -171,7 +171,12 @@ class Sensitivity(Outcome):
                 }
                 continue
             s = sobol.analyze(
-                problem, y, calc_second_order=False, conf_level=0.95, seed=self.seed, print_to_console=False
+                problem,
+                y,
+                calc_second_order=False,
+                conf_level=0.95,
+                seed=self.seed + 1,  # SALib takes 0 for none, and its intervals then differ each time
+                print_to_console=False,
             )
             found[path] = {
                 g: {

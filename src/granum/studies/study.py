@@ -1,11 +1,15 @@
 """``Study``: a study as a case file or a form declares it, checked, ready to run.
 
-A study is a table with a ``kind``::
+A study is a table with a ``kind``. Its figures are paths, expressions over them, and quantities, which
+have a name::
+
+    [quantities]
+    heat_per_product = "dryer.heat_duty / crystals.solid_flow"
 
     [study.sizes]
     kind = "monte_carlo"  # or sobol, sweep, map, scenarios, optimize, pareto
     samples = 2000
-    outputs = ["filter.moisture_dry_basis", "product = crystals.solid_flow"]
+    outputs = ["filter.moisture_dry_basis", "heat_per_product", "fines.solid_flow / crystals.solid_flow"]
 
 ``Study.of(name, table, subject, uncertain)`` checks the table; ``study.run(progress=…, cancel=…)`` computes
 it and gives an ``Outcome`` with ``findings()``, ``as_json()``, ``charts()`` and ``save(path)``.

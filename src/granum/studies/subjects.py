@@ -36,6 +36,7 @@ not possible, from 4000 the unit that has no solution.
 
 _ADDRESS = re.compile(r"0x[0-9a-f]+")
 _DECIMALS = re.compile(r"\d+\.\d{8,}(e[+-]?\d+)?")
+_NAMED = re.compile(r"\s*(\w+)\s*=(?!=)")  # ``name = expression``
 _INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
 MOST_KEPT = 8  # compiled functions of a subject
 Traced = Callable[[Any, Any], tuple[Any, Any]]
@@ -212,6 +213,12 @@ class Subject(abc.ABC):
             self.output(text)
             return self, text
         except GranumError as problem:
+            if named := _NAMED.match(text):
+                raise InputError(
+                    _("'{text}' is a figure with a name: declare '{name}' under [quantities].").format(
+                        text=text, name=named[1]
+                    )
+                ) from None
             try:
                 expression = Expression.read(text)
             except GranumError:
