@@ -91,3 +91,70 @@ def test_dust_that_burns_is_checked_where_its_data_are_given() -> None:
             assert [checks[name] for name in names] == [fine, fine]
         said = {c.name for c in kind(*sizes).operate(feed=mild).checks}
         assert said & set(names) == {names[0]}, "of starch in the library"
+
+
+def test_a_vessel_says_what_vent_its_dust_asks_for() -> None:
+    """Starch of the library burns like wheat starch, 115 bar m/s and 9.9 bar; 8 m³ that bear 0.4 bar, by hand
+    after the standard: 3.264e-5·9.9·115·0.4^−0.569·8^0.753·(1 + (0.758 − 4.305 log 0.4) log 2). The same of
+    the bags, of a cyclone, a chamber and a precipitator; less installed fails the check; nothing is said
+    without a vessel or of what does not burn; nothing is needed in gas without oxygen.
+    """
+    from math import log10
+
+    import jax.numpy as jnp
+    from tests.dust.test_collectors import AIR, OTHER, dusty
+
+    from granum.cyclones.equipment.gas import GasCyclone
+    from granum.dust.equipment.bag_filter import BagFilter
+    from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
+    from granum.dust.equipment.settling_chamber import SettlingChamber
+    from granum.dust.vents import ExplosionVent
+
+    hand = (
+        3.264e-5 * 9.9 * 115.0 * 0.4**-0.569 * 8.0**0.753 * (1.0 + (0.758 - 4.305 * log10(0.4)) * log10(2.0))
+    )
+    check = "vent area that the dust asks for over the vent area of the vessel"
+    vessel: dict[str, Any] = {"volume": 8.0, "reduced_pressure": "0.4 bar", "length_to_diameter": 2.0}
+    kinds: list[Any] = [
+        (BagFilter, (200.0,)),
+        (GasCyclone, (1.0,)),
+        (SettlingChamber, (12.0, 4.0, 3.0)),
+        (ElectrostaticPrecipitator, (500.0, 4.0)),
+    ]
+    for kind, sizes in kinds:
+
+        def made(feed: Any, kind: Any = kind, sizes: Any = sizes, **more: Any) -> tuple[Any, dict[str, Any]]:
+            out = kind(*sizes, explosion_vent=ExplosionVent(**(vessel | more))).operate(feed=feed)
+            return out.figures.vent_area_needed, {c.name: c for c in out.checks}
+
+        needed, checks = made(dusty(AIR))
+        assert float(needed) == pytest.approx(hand, rel=1e-12)
+        assert check not in checks
+        for installed, fine in ((0.99 * hand, False), (1.01 * hand, True)):
+            assert made(dusty(AIR), vent_area=installed)[1][check].ok is fine
+        assert float(made(dusty(OTHER))[0]) == 0.0, "nitrogen"
+        sand = dusty(AIR).replace(solid=dusty(AIR).solid.at[1].set(0.0))
+        bare = made(sand, vent_area=0.1)
+        assert float(bare[0]) == 0.0
+        assert not bare[1][check].told
+        own = made(sand, deflagration_index="230 bar*m/s", explosion_pressure="9.9 bar")[0]
+        assert float(own) == pytest.approx(2.0 * hand, rel=1e-12), "of the sample, K_St twice as large"
+        assert float(made(dusty(AIR), reduced_pressure="10 bar")[0]) == 0.0, "bears it all"
+        assert kind(*sizes).operate(feed=dusty(AIR)).figures.vent_area_needed is None
+        grad = jnp.asarray(made(dusty(AIR), volume=8.0 * 1.001)[0]) / needed
+        assert float(grad) == pytest.approx(1.001**0.753, rel=1e-9)
+
+
+def test_a_vent_without_data_or_that_opens_late_is_refused() -> None:
+    from tests.dust.test_collectors import dusty
+
+    from granum.core.errors import InputError
+    from granum.dust.equipment.bag_filter import BagFilter
+    from granum.dust.vents import ExplosionVent
+    from granum.streams.from_materials import mixture_of
+
+    sand = mixture_of(["water"], ["calcite"], ["dry air", "water"], list(np.geomspace(1e-7, 1e-4, 13)))
+    with pytest.raises(InputError, match="'deflagration_index' and 'explosion_pressure'"):
+        BagFilter(200.0, explosion_vent=ExplosionVent(8.0, 4e4)).operate(feed=dusty(sand))
+    with pytest.raises(InputError, match=r"above the 0\.05 bar"):
+        ExplosionVent(8.0, "0.05 bar", activation_pressure="0.1 bar")

@@ -83,3 +83,6 @@ from granum.dust.formulas.scrubbers import (
     target_efficiency_drop as target_efficiency_drop,
     target_efficiency_wire as target_efficiency_wire,
 )
+from granum.dust.vents import (
+    ExplosionVent as ExplosionVent,
+)

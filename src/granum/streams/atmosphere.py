@@ -10,9 +10,10 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.limits import Limit
 from granum.numerics import safe_divide
-from granum.streams.dusts import COARSEST, dust
+from granum.streams.dusts import COARSEST, DustData, dust
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import AIR, Mixture
 from granum.streams.stream import Stream
@@ -46,6 +47,17 @@ EXPLOSIBLE: Limits = {
         0.25,
         "dimensionless",
         "nfpa69_2019, § 8.3; nfpa68_2013",
+        quiet=True,
+    )
+}
+
+VENTED: Limits = {
+    "vent": Limit(
+        "vent area that the dust asks for over the vent area of the vessel",
+        0.0,
+        1.0,
+        "dimensionless",
+        "en14491_2012",
         quiet=True,
     )
 }
@@ -88,20 +100,54 @@ def explosible(gas: Stream) -> dict[str, Any]:
     known over that limit, added up as Le Chatelier does; nothing where no such solid is in the mixture.
     """
     m = gas.mixture
-    limits = [_lower_limit(m, species.name) for species in m.solids]
-    if all(limit is None for limit in limits):
+    dusts = [_dust(m, species.name) for species in m.solids]
+    if all(found is None for found in dusts):
         return {}
-    fine = gas.by_size(jnp.asarray(m.sizes) <= COARSEST)
-    flying = jnp.sum(gas.solid * fine, axis=tuple(range(1, gas.solid.ndim)))
-    share = sum((flying[i] / limit for i, limit in enumerate(limits) if limit), jnp.zeros(()))
+    flying = _flying(gas)
+    share = sum(
+        (flying[i] / found.explosible_concentration for i, found in enumerate(dusts) if found), jnp.zeros(())
+    )
     over = safe_divide(share, gas.gas_volume_flow)
     return {"explosible": jnp.where(oxygen_of(gas) > STARVED, over, 0.0)}
 
 
-def _lower_limit(mixture: Mixture, name: str) -> float | None:
-    """Of the dust of a solid, kg/m³; None for what the library does not know as a dust that burns."""
+def vent_needed(gas: Stream, vent: Any) -> Any:
+    """The vent area that a vessel with an ``explosion_vent`` needs for the dust that flies in a gas, the
+    fiercest where several do; None without such a law, zero where nothing can explode.
+    """
+    if vent is None:
+        return None
+    m = gas.mixture
+    dusts = [_dust(m, species.name) for species in m.solids]
+    known = [vent.known(d and (d.deflagration_index, d.explosion_pressure)) for d in dusts]
+    if all(pair is None for pair in known):
+        raise InputError(
+            _(
+                "The explosion vent needs to know how the dust explodes, which the library does not say of "
+                "{names}: give 'deflagration_index' and "
+                "'explosion_pressure' of the vent."
+            ).format(names=", ".join(species.name for species in m.solids))
+        )
+    flying = _flying(gas)
+    areas = [jnp.where(flying[i] > 0.0, vent(*pair), 0.0) for i, pair in enumerate(known) if pair]
+    return jnp.where(oxygen_of(gas) > STARVED, jnp.max(jnp.stack(areas)), 0.0)
+
+
+def vented(vent: Any, needed: Any) -> dict[str, Any]:
+    """What is measured against ``VENTED``; nothing where no vent area is said to be installed."""
+    return {} if needed is None or vent.vent_area is None else {"vent": needed / vent.vent_area}
+
+
+def _flying(gas: Stream) -> Any:
+    """Of each solid what is fine enough to burn as dust, kg/s."""
+    fine = gas.by_size(jnp.asarray(gas.mixture.sizes) <= COARSEST)
+    return jnp.sum(gas.solid * fine, axis=tuple(range(1, gas.solid.ndim)))
+
+
+def _dust(mixture: Mixture, name: str) -> DustData | None:
+    """Of a solid; None for what the library does not know as a dust that burns."""
     try:
         like = mixture.materials.solid(name).dust
     except InputError:
         return None
-    return dust(like).explosible_concentration if like else None
+    return dust(like) if like else None

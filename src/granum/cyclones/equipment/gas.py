@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import (
+    AreaOrZero,
     Fraction,
     Law,
     Length,
@@ -30,7 +31,7 @@ from granum.cyclones.formulas.erosion import wear_velocity_cyclone_inlet
 from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_velocity_kalen_zenz
 from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.numerics.smooth import safe_divide
-from granum.streams.atmosphere import EXPLOSIBLE, explosible
+from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vent_needed, vented
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import FANNED, fanned
@@ -59,6 +60,7 @@ class CycloneFigures(NamedTuple):
     dust_loading: MassRatio
     limit_loading: MassRatio
     wear_velocity: Speed
+    vent_area_needed: AreaOrZero
 
 
 class Swirl(NamedTuple):
@@ -86,7 +88,7 @@ class GasCyclone(Unit):
     What the swirl cannot carry (Muschelknautz' limit loading) is collected whatever its size; the rest by the
     grade efficiency. Liquid travels with the dust. The pressure drop is taken from the gas. In series:
     connect the gas of one to the feed of the next. The wear is that of a ductile wall of the given hardness,
-    in its order of magnitude.
+    in its order of magnitude. An ``explosion_vent`` is that of one cyclone.
     """
 
     diameter: Length
@@ -95,12 +97,13 @@ class GasCyclone(Unit):
     cyclone_efficiency: Annotated[Any, Law("cyclone_efficiency")] = cyclone_efficiency_muschelknautz
     inlet_heads: Annotated[Any, Law("inlet_heads")] = inlet_heads_stairmand
     wall_hardness: Pressure = MILD_STEEL
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
     limits: ClassVar[Limits] = {
         "velocity": Limit("inlet velocity", 10.0, 27.0, "m/s", "hoffmann2008"),
         "saltation": Limit("inlet velocity over saltation velocity", 0.8, 1.36, "dimensionless", "kalen1974"),
         "wear": Limit("wear of the wall in a year of operation", 0.0, ALLOWANCE, "mm", OWN_LIMIT),
-    } | EXPLOSIBLE
+    } | (EXPLOSIBLE | VENTED)
 
     utilities: ClassVar[Utilities] = FANNED
 
@@ -163,16 +166,21 @@ class GasCyclone(Unit):
             inside.loading,
             inside.carried,
             inside.wear,
+            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(
         self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream
     ) -> dict[str, Any]:
-        return explosible(feed) | {
-            "velocity": inside.velocity,
-            "saltation": inside.velocity / inside.saltation,
-            "wear": 1e3 * YEAR * inside.wear,
-        }
+        return (
+            explosible(feed)
+            | vented(self.explosion_vent, figures.vent_area_needed)
+            | {
+                "velocity": inside.velocity,
+                "saltation": inside.velocity / inside.saltation,
+                "wear": 1e3 * YEAR * inside.wear,
+            }
+        )
 
     def drawn(
         self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -11,8 +11,10 @@ from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import (
     Area,
+    AreaOrZero,
     Concentration,
     Fraction,
+    Law,
     MassPerAreaOrZero,
     MoleFraction,
     Pressure,
@@ -28,6 +30,7 @@ from granum.dust.formulas.bags import residual_drag_pulse_jet
 from granum.filtration.formulas.gas_filters import pressure_drop_dust_cake
 from granum.filtration.kinds import DustResistance, ResidualDrag
 from granum.numerics.smooth import safe_divide
+from granum.streams.atmosphere import vent_needed
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, compressed, fanned
@@ -47,6 +50,7 @@ class BagFigures(NamedTuple):
     concentration_inlet: Concentration
     removal_efficiency: Fraction
     emission_concentration: Concentration
+    vent_area_needed: AreaOrZero
 
 
 class Bagged(NamedTuple):
@@ -87,6 +91,7 @@ class BagFilter(Collector):
     oxygen_reference: MoleFraction | None = None
     explosible_concentration: Concentration | None = None
     layer_ignition_temperature: Temperature | None = None
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
     limits: ClassVar[Limits] = (
         Collector.limits
@@ -135,10 +140,17 @@ class BagFilter(Collector):
             inside.concentration,
             safe_divide(outlets.dust.solid_flow, feed.solid_flow),
             self.emission(outlets.gas),
+            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(self, inside: Bagged, outlets: Cleaned, figures: BagFigures, feed: Stream) -> dict[str, Any]:
-        burns = self.ignition(feed, self.explosible_concentration, self.layer_ignition_temperature)
+        burns = self.ignition(
+            feed,
+            self.explosible_concentration,
+            self.layer_ignition_temperature,
+            self.explosion_vent,
+            figures.vent_area_needed,
+        )
         return burns | {
             "emission": self.over_limit(figures.emission_concentration),
             "cloth": 60.0 * inside.velocity,

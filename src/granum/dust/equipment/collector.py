@@ -14,22 +14,26 @@ from granum.core.limits import Limit
 from granum.dust.formulas.emission import emission_concentration
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.slip import knudsen_number, mean_free_path, slip_factor_allen_raabe
-from granum.streams.atmosphere import EXPLOSIBLE, explosible
+from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vented
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 LEAST = 1e-9
 EMISSION = 20e-6  # kg/m³, dry at 0 °C and 1 atm
 SOURCE = "taluft2021, no. 5.2.1"
-IGNITION: Limits = EXPLOSIBLE | {  # of dust that burns
-    "layer": Limit(
-        "ignition temperature of a layer of dust above that of the gas",
-        75.0,
-        math.inf,
-        "delta_degC",
-        "en60079_14_2014, § 5.6",
-    ),
-}
+IGNITION: Limits = (
+    EXPLOSIBLE
+    | VENTED
+    | {  # of dust that burns
+        "layer": Limit(
+            "ignition temperature of a layer of dust above that of the gas",
+            75.0,
+            math.inf,
+            "delta_degC",
+            "en60079_14_2014, § 5.6",
+        ),
+    }
+)
 
 
 class Cleaned(NamedTuple):
@@ -113,12 +117,17 @@ class Collector(Unit):
         return emission / jnp.maximum(self.emission_limit, 1e-15)
 
     def ignition(
-        self, feed: Stream, explosible_concentration: Any, layer_ignition_temperature: Any
+        self,
+        feed: Stream,
+        explosible_concentration: Any,
+        layer_ignition_temperature: Any,
+        vent: Any = None,
+        needed: Any = None,
     ) -> dict[str, Any]:
         """What is measured of dust that burns, as far as its data are known: of the sample where they are
-        given, else of the library.
+        given, else of the library; and of the vent that its vessel needs.
         """
-        found = explosible(feed)
+        found = explosible(feed) | vented(vent, needed)
         if explosible_concentration is not None:
             dust = safe_divide(feed.solid_flow, feed.gas_volume_flow)
             found["explosible"] = dust / jnp.maximum(explosible_concentration, 1e-15)

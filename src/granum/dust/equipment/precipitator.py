@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import (
     Area,
+    AreaOrZero,
     Concentration,
     Fraction,
+    Law,
     Length,
     MoleFraction,
     PositiveNumber,
@@ -30,6 +32,7 @@ from granum.dust.formulas.precipitation import (
 )
 from granum.dust.kinds import CurrentDensity, IonDose, Voltage
 from granum.numerics.smooth import safe_divide
+from granum.streams.atmosphere import vent_needed
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, driven, fanned
@@ -47,6 +50,7 @@ class PrecipitatorFigures(NamedTuple):
     pressure_drop: PressureDrop
     removal_efficiency: Fraction
     emission_concentration: Concentration
+    vent_area_needed: AreaOrZero
 
 
 class Charged(NamedTuple):
@@ -88,6 +92,7 @@ class ElectrostaticPrecipitator(Collector):
     oxygen_reference: MoleFraction | None = None
     explosible_concentration: Concentration | None = None
     layer_ignition_temperature: Temperature | None = None
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
     limits: ClassVar[Limits] = (
         Collector.limits
@@ -126,12 +131,19 @@ class ElectrostaticPrecipitator(Collector):
             jnp.asarray(self.pressure_drop, dtype=float),
             removed,
             self.emission(outlets.gas),
+            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(
         self, inside: Charged, outlets: Cleaned, figures: PrecipitatorFigures, feed: Stream
     ) -> dict[str, Any]:
-        burns = self.ignition(feed, self.explosible_concentration, self.layer_ignition_temperature)
+        burns = self.ignition(
+            feed,
+            self.explosible_concentration,
+            self.layer_ignition_temperature,
+            self.explosion_vent,
+            figures.vent_area_needed,
+        )
         return burns | {
             "emission": self.over_limit(figures.emission_concentration),
             "velocity": inside.velocity,

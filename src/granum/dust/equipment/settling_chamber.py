@@ -8,6 +8,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import (
+    AreaOrZero,
     Concentration,
     Fraction,
     Law,
@@ -26,6 +27,7 @@ from granum.dust.formulas.chambers import (
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import terminal_velocity
+from granum.streams.atmosphere import vent_needed
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, fanned
@@ -46,6 +48,7 @@ class ChamberFigures(NamedTuple):
     pressure_drop: PressureDrop
     removal_efficiency: Fraction
     emission_concentration: Concentration
+    vent_area_needed: AreaOrZero
 
 
 class Fallen(NamedTuple):
@@ -76,6 +79,7 @@ class SettlingChamber(Collector):
     oxygen_reference: MoleFraction | None = None
     explosible_concentration: Concentration | None = None
     layer_ignition_temperature: Temperature | None = None
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
     limits: ClassVar[Limits] = (
         Collector.limits
@@ -111,12 +115,19 @@ class SettlingChamber(Collector):
             inside.drop,
             safe_divide(outlets.dust.solid_flow, feed.solid_flow),
             self.emission(outlets.gas),
+            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(
         self, inside: Fallen, outlets: Cleaned, figures: ChamberFigures, feed: Stream
     ) -> dict[str, Any]:
-        burns = self.ignition(feed, self.explosible_concentration, self.layer_ignition_temperature)
+        burns = self.ignition(
+            feed,
+            self.explosible_concentration,
+            self.layer_ignition_temperature,
+            self.explosion_vent,
+            figures.vent_area_needed,
+        )
         return burns | {
             "emission": self.over_limit(figures.emission_concentration),
             "velocity": inside.velocity,
