@@ -23,6 +23,7 @@ from granum.dust.kinds import DeflagrationIndex
     title="Explosion vent",
     typical={
         "volume": (1.0, 100.0),
+        "vent_area": (0.1, 2.0),
         "deflagration_index": (50.0 * BAR, 200.0 * BAR),
         "explosion_pressure": (7.0 * BAR, 10.0 * BAR),
         "reduced_pressure": (0.2 * BAR, 1.0 * BAR),
@@ -34,20 +35,21 @@ class ExplosionVent(eqx.Module):
 
     ``reduced_pressure`` is the strength of the vessel, gauge: the explosion may bring it so far. The area is
     that of ``vent_area_en14491``, without duct; none where the vessel bears the whole explosion.
-    ``vent_area`` is what is installed, times the venting efficiency of its cover. K_St and p_max of the
+    ``vent_area`` is what is installed, times the venting efficiency of its cover; the machine checks the area
+    that it needs against it, so that a share above one says how much larger it must be. K_St and p_max of the
     sample itself go before those of the table of tested dusts.
 
     By hand: 10 m³, 100 bar m/s, 9 bar, 0.5 bar, 0.1 bar: 3.264e-5·900·0.5^−0.569·10^0.753.
 
-    >>> round(float(ExplosionVent(10.0, "0.5 bar")(100e5, 9e5)), 3)
+    >>> round(float(ExplosionVent(10.0, "0.5 bar", 0.3)(100e5, 9e5)), 3)
     0.247
     """
 
     volume: Volume
     reduced_pressure: PressureDrop
+    vent_area: Area
     activation_pressure: PressureDrop = 1e4
     length_to_diameter: Annotated[PositiveNumber, Within(1.0, 100.0)] = 1.0
-    vent_area: Area | None = None
     deflagration_index: DeflagrationIndex | None = None
     explosion_pressure: PressureDrop | None = None
 

@@ -111,12 +111,10 @@ def explosible(gas: Stream) -> dict[str, Any]:
     return {"explosible": jnp.where(oxygen_of(gas) > STARVED, over, 0.0)}
 
 
-def vent_needed(gas: Stream, vent: Any) -> Any:
-    """The vent area that a vessel with an ``explosion_vent`` needs for the dust that flies in a gas, the
-    fiercest where several do; None without such a law, zero where nothing can explode.
+def _vent_needed(gas: Stream, vent: Any) -> Any:
+    """The vent area that a vessel needs for the dust that flies in a gas, the fiercest where several do; zero
+    where nothing can explode.
     """
-    if vent is None:
-        return None
     m = gas.mixture
     dusts = [_dust(m, species.name) for species in m.solids]
     known = [vent.known(d and (d.deflagration_index, d.explosion_pressure)) for d in dusts]
@@ -133,9 +131,11 @@ def vent_needed(gas: Stream, vent: Any) -> Any:
     return jnp.where(oxygen_of(gas) > STARVED, jnp.max(jnp.stack(areas)), 0.0)
 
 
-def vented(vent: Any, needed: Any) -> dict[str, Any]:
-    """What is measured against ``VENTED``; nothing where no vent area is said to be installed."""
-    return {} if needed is None or vent.vent_area is None else {"vent": needed / vent.vent_area}
+def vented(gas: Stream, vent: Any) -> dict[str, Any]:
+    """What is measured of a gas against ``VENTED``: the vent area that its dust asks for over that of the
+    vessel's ``explosion_vent``; nothing without one.
+    """
+    return {} if vent is None else {"vent": _vent_needed(gas, vent) / vent.vent_area}
 
 
 def _flying(gas: Stream) -> Any:

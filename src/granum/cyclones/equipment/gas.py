@@ -10,7 +10,6 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import (
-    AreaOrZero,
     Fraction,
     Law,
     Length,
@@ -31,7 +30,7 @@ from granum.cyclones.formulas.erosion import wear_velocity_cyclone_inlet
 from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_velocity_kalen_zenz
 from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.numerics.smooth import safe_divide
-from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vent_needed, vented
+from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vented
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import FANNED, fanned
@@ -60,7 +59,6 @@ class CycloneFigures(NamedTuple):
     dust_loading: MassRatio
     limit_loading: MassRatio
     wear_velocity: Speed
-    vent_area_needed: AreaOrZero
 
 
 class Swirl(NamedTuple):
@@ -166,7 +164,6 @@ class GasCyclone(Unit):
             inside.loading,
             inside.carried,
             inside.wear,
-            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(
@@ -174,7 +171,7 @@ class GasCyclone(Unit):
     ) -> dict[str, Any]:
         return (
             explosible(feed)
-            | vented(self.explosion_vent, figures.vent_area_needed)
+            | vented(feed, self.explosion_vent)
             | {
                 "velocity": inside.velocity,
                 "saltation": inside.velocity / inside.saltation,

@@ -11,7 +11,6 @@ from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import (
     Area,
-    AreaOrZero,
     Concentration,
     Fraction,
     Law,
@@ -30,7 +29,6 @@ from granum.dust.formulas.bags import residual_drag_pulse_jet
 from granum.filtration.formulas.gas_filters import pressure_drop_dust_cake
 from granum.filtration.kinds import DustResistance, ResidualDrag
 from granum.numerics.smooth import safe_divide
-from granum.streams.atmosphere import vent_needed
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, compressed, fanned
@@ -50,7 +48,6 @@ class BagFigures(NamedTuple):
     concentration_inlet: Concentration
     removal_efficiency: Fraction
     emission_concentration: Concentration
-    vent_area_needed: AreaOrZero
 
 
 class Bagged(NamedTuple):
@@ -140,7 +137,6 @@ class BagFilter(Collector):
             inside.concentration,
             safe_divide(outlets.dust.solid_flow, feed.solid_flow),
             self.emission(outlets.gas),
-            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(self, inside: Bagged, outlets: Cleaned, figures: BagFigures, feed: Stream) -> dict[str, Any]:
@@ -149,7 +145,6 @@ class BagFilter(Collector):
             self.explosible_concentration,
             self.layer_ignition_temperature,
             self.explosion_vent,
-            figures.vent_area_needed,
         )
         return burns | {
             "emission": self.over_limit(figures.emission_concentration),

@@ -122,12 +122,11 @@ class Collector(Unit):
         explosible_concentration: Any,
         layer_ignition_temperature: Any,
         vent: Any = None,
-        needed: Any = None,
     ) -> dict[str, Any]:
         """What is measured of dust that burns, as far as its data are known: of the sample where they are
-        given, else of the library; and of the vent that its vessel needs.
+        given, else of the library; and of the vent of its vessel.
         """
-        found = explosible(feed) | vented(vent, needed)
+        found = explosible(feed) | vented(feed, vent)
         if explosible_concentration is not None:
             dust = safe_divide(feed.solid_flow, feed.gas_volume_flow)
             found["explosible"] = dust / jnp.maximum(explosible_concentration, 1e-15)

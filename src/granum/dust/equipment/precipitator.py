@@ -9,7 +9,6 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.kinds import (
     Area,
-    AreaOrZero,
     Concentration,
     Fraction,
     Law,
@@ -32,7 +31,6 @@ from granum.dust.formulas.precipitation import (
 )
 from granum.dust.kinds import CurrentDensity, IonDose, Voltage
 from granum.numerics.smooth import safe_divide
-from granum.streams.atmosphere import vent_needed
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, driven, fanned
@@ -50,7 +48,6 @@ class PrecipitatorFigures(NamedTuple):
     pressure_drop: PressureDrop
     removal_efficiency: Fraction
     emission_concentration: Concentration
-    vent_area_needed: AreaOrZero
 
 
 class Charged(NamedTuple):
@@ -131,7 +128,6 @@ class ElectrostaticPrecipitator(Collector):
             jnp.asarray(self.pressure_drop, dtype=float),
             removed,
             self.emission(outlets.gas),
-            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(
@@ -142,7 +138,6 @@ class ElectrostaticPrecipitator(Collector):
             self.explosible_concentration,
             self.layer_ignition_temperature,
             self.explosion_vent,
-            figures.vent_area_needed,
         )
         return burns | {
             "emission": self.over_limit(figures.emission_concentration),

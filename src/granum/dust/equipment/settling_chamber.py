@@ -8,7 +8,6 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import (
-    AreaOrZero,
     Concentration,
     Fraction,
     Law,
@@ -27,7 +26,6 @@ from granum.dust.formulas.chambers import (
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import terminal_velocity
-from granum.streams.atmosphere import vent_needed
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, fanned
@@ -48,7 +46,6 @@ class ChamberFigures(NamedTuple):
     pressure_drop: PressureDrop
     removal_efficiency: Fraction
     emission_concentration: Concentration
-    vent_area_needed: AreaOrZero
 
 
 class Fallen(NamedTuple):
@@ -115,7 +112,6 @@ class SettlingChamber(Collector):
             inside.drop,
             safe_divide(outlets.dust.solid_flow, feed.solid_flow),
             self.emission(outlets.gas),
-            vent_needed(feed, self.explosion_vent),
         )
 
     def measured(
@@ -126,7 +122,6 @@ class SettlingChamber(Collector):
             self.explosible_concentration,
             self.layer_ignition_temperature,
             self.explosion_vent,
-            figures.vent_area_needed,
         )
         return burns | {
             "emission": self.over_limit(figures.emission_concentration),
