@@ -225,5 +225,5 @@ def test_an_input_of_a_law_is_found(client: httpx.Client) -> None:
 def test_the_streams_of_a_machine_alone_have_names_of_the_language(page: Page) -> None:
     page.open("calculate/evaporation.evaporator", "fr")
     page.one("[data-figure]")
-    names = [e.text for e in page.all("tbody th")]
+    names = [e.text for e in page.all("thead th")]
     assert {"alimentation", "produit", "vapeur"} <= set(names), names
