@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import runpy
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from granum.core.i18n import current_language, language
+from granum.app.chapters import calculated, chapter_figure
+from granum.app.shipped import chapter_calculations
+from granum.core.i18n import language
 from granum.core.unit_names import parse_unit, registry
 from granum.reports.moving_figures import moving_figure
 from granum.reports.stated import STATED, Number, stated_number
@@ -24,14 +25,9 @@ PLACES = {"en": "handbook/{}.md", "fr": "fr/manuel/{}.md"}
 LOOKED_AT = ("src/granum/**/*.py", "src/granum/**/*.toml", "src/granum/**/*.csv", "src/granum/**/*.po")
 
 
-def said(english: str, french: str) -> str:
-    """Words of a figure in the language it is drawn in."""
-    return french if current_language() == "fr" else english
-
-
 def domains() -> list[str]:
     """Domains that have a chapter."""
-    return sorted(place.stem for place in (DOCS / "handbook").glob("*.py"))
+    return sorted(chapter_calculations())
 
 
 def chapter_text(domain: str, code: str) -> str:
@@ -46,11 +42,6 @@ def _program() -> bytes:
         for place in sorted(ROOT.glob(pattern)):
             told.update(place.read_bytes())
     return told.digest()
-
-
-@cache
-def _calculated(domain: str) -> dict[str, Any]:
-    return runpy.run_path(str(DOCS / "handbook" / f"{domain}.py"), run_name=f"handbook.{domain}")
 
 
 def _kept(domain: str, what: str, make: Any) -> Any:
@@ -73,7 +64,7 @@ def values(domain: str) -> dict[str, float]:
     """Every expression stated in the chapter of a domain, in SI units."""
     asked = sorted({m[1] for code in PLACES for m in STATED.finditer(chapter_text(domain, code))})
     return _kept(
-        domain, "\n".join(asked), lambda: {e: float(eval(e, dict(_calculated(domain)))) for e in asked}
+        domain, "\n".join(asked), lambda: {e: float(eval(e, dict(calculated(domain)))) for e in asked}
     )
 
 
@@ -81,12 +72,7 @@ def figure(domain: str, name: str, code: str) -> str:
     """A figure of a chapter in a language, as JSON for Plotly."""
 
     def drawn() -> str:
-        with language(code):
-            chart = _calculated(domain)[f"figure_{name}"]()
-        chart.update_layout(title=None)  # the caption says it
-        if code == "fr":
-            chart.update_layout(separators=",\u202f")
-        return chart.to_json()
+        return str(chapter_figure(domain, name, code).to_json())
 
     return _kept(domain, f"{name} {code}", drawn)
 
@@ -99,13 +85,6 @@ def frames(name: str, code: str) -> str:
             return json.dumps(moving_figure(name).frames(), separators=(",", ":"), allow_nan=False)
 
     return _kept_as("moving", b"", f"{name} {code}", drawn)
-
-
-def code(domain: str, name: str) -> str:
-    """The part of the calculations that stands between ``# ---- NAME`` and the next such line."""
-    parts = (DOCS / "handbook" / f"{domain}.py").read_text(encoding="utf-8").split("# ---- ")
-    found = next(part for part in parts[1:] if part.startswith(f"{name}\n"))
-    return found.split("\n", 1)[1].strip()
 
 
 def in_si(number: Number) -> tuple[float, float]:

@@ -19,12 +19,14 @@ from pathlib import Path
 from typing import Any
 
 import chapters
+import notebooks
 import stills
 import validation
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File
 
 from granum.app.forms import bounds_text, range_text
+from granum.app.shipped import chapter_code
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.i18n import _, current_language, language, typographic
@@ -70,6 +72,7 @@ WORDS = {
         "Le chapitre du manuel",
     ],
 }
+LETTERS = "stix-two-math.woff2"
 FOLDERS = {"en": "cards", "fr": "cards-fr"}
 DOMAIN_TITLES = {
     "en": {
@@ -140,14 +143,22 @@ def _domains() -> list[str]:
 
 
 def on_files(files_: Any, config: Any) -> Any:
-    """Add the generated pages and Plotly, as its Python package ships it."""
+    """Add the generated pages, guides as notebooks, Plotly as its Python package ships it, and the letters of
+    equations that the app has.
+    """
     for code in ("en", "fr"):
         with language(code):
             pages = _card_pages(code)
         for name, text in pages.items():
             files_.append(File.generated(config, f"{FOLDERS[code]}/{name}.md", content=text))
+    for name in notebooks.PAGES:
+        found = notebooks.notebook((ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8"))
+        text = json.dumps(found, ensure_ascii=False, indent=1)
+        files_.append(File.generated(config, f"{name}.ipynb", content=text))
     plotly = files("plotly") / "package_data" / "plotly.min.js"
-    files_.append(File.generated(config, "assets/plotly.min.js", abs_src_path=str(plotly)))
+    letters = files("granum") / "app" / "static" / "vendor" / LETTERS
+    for place in (plotly, letters):
+        files_.append(File.generated(config, f"assets/{place.name}", abs_src_path=str(place)))
     return files_
 
 
@@ -193,7 +204,7 @@ def _chapter(text: str, domain: str, code: str) -> str:
     )
     return re.sub(
         r"^\[\[code (\w+)\]\]$",
-        lambda m: f"```python\n{chapters.code(domain, m[1])}\n```",
+        lambda m: f"```python\n{chapter_code(domain, m[1])}\n```",
         text,
         flags=re.M,
     )

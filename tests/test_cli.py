@@ -149,8 +149,8 @@ def test_missing_case_file_is_one_message() -> None:
 
 def test_import_and_help_load_nothing_heavy() -> None:
     text = (
-        "import sys, granum, granum.cli; print([m for m in ('jax', 'plotly', 'pint', 'scipy') if m in "
-        "sys.modules])"
+        "import sys, granum, granum.cli; print([m for m in ('jax', 'numpy', 'plotly', 'pint', "
+        "'scipy') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

@@ -3,9 +3,9 @@
 from math import sqrt
 
 import numpy as np
-from chapters import said
 
 import granum as gr
+from granum.app.chapters import said
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 
 ce, p, f = gr.centrifuges, gr.particles, gr.filtration

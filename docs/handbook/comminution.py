@@ -1,9 +1,9 @@
 """What the chapter on comminution and screening states, calculated."""
 
 import numpy as np
-from chapters import said
 
 import granum as gr
+from granum.app.chapters import said
 from granum.core.charts import DASHES, LINES, add_line, add_points, axis_title, figure
 
 co = gr.comminution

@@ -5,9 +5,9 @@ from math import log2
 from typing import Any
 
 import numpy as np
-from chapters import said
 
 import granum as gr
+from granum.app.chapters import said
 from granum.cases import read_text
 from granum.core.charts import DASHES, LINES, add_line, figure
 

@@ -3,16 +3,19 @@
 from math import pi
 from pathlib import Path
 
+import jax.numpy as jnp
 import numpy as np
-from chapters import said
 from validation import crystallization_msmpr, materials_solubility
 
 import granum as gr
+from granum.app.chapters import said
 from granum.app.shipped import examples_folder
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 from granum.crystallization.equipment.boiling import Boiling
 from granum.crystallization.formulas.solubility_laws import LibrarySolubility
 from granum.materials.library import session
+from granum.streams.from_materials import mixture_of
+from granum.streams.stream import empty
 
 c, m, tank = gr.crystallization, gr.materials, gr.streams
 
@@ -150,6 +153,36 @@ scaled = tank.scale_up_stirrer("500 rpm", "0.035 m", "0.35 m")
 HOT_COLD = ("60 degC", "20 degC", "1 t/h")
 nitrate = c.choose({"law": "library_solubility", "solute": "potassium nitrate"}, *HOT_COLD)
 salt = c.choose({"law": "library_solubility", "solute": "sodium chloride"}, *HOT_COLD)
+
+# ---- precipitation
+exchanged = mixture_of(
+    ["water", "barium chloride", "sodium sulfate", "sodium chloride"],
+    ["barium sulfate"],
+    [],
+    np.geomspace(1e-7, 2e-4, 41),
+)
+barium, sulfate = (
+    empty(exchanged, 298.15).replace(liquid=2000 / 3600 * jnp.array(shares))
+    for shares in ([0.98, 0.02, 0.0, 0.0], [0.986, 0.0, 0.014, 0.0])
+)
+slower = 120
+precipitated, slow = (
+    c.Precipitator(
+        temperature="25 degC",
+        volume="2 m^3",
+        rotation_speed=f"{speed} rpm",
+        growth={"law": "power_law_growth", "growth_coefficient": 4e-14, "growth_order": 2},
+        nucleation={
+            "law": "secondary_nucleation",
+            "nucleation_coefficient": 1e7,
+            "nucleation_order": 1.8,
+            "magma_order": 0,
+        },
+    )
+    .operate(feed=barium, reagent=sulfate)
+    .figures
+    for speed in (200, slower)
+)
 
 
 FRENCH = {

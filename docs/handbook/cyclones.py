@@ -3,14 +3,28 @@
 from math import log, sqrt
 
 import numpy as np
-from chapters import said
 
 import granum as gr
+from granum.app.chapters import said
 from granum.core.charts import DASHES, LINES, add_line, add_points, axis_title, figure
 
 c, p, du, m = gr.cyclones, gr.particles, gr.dust, gr.materials
 AIR = {"fluid_density": 1.2, "dynamic_viscosity": "18 uPa s"}
 SHAPE = c.StandardCyclone()
+
+# ---- explosion
+starch = du.dust_explosibility("wheat starch")
+vent = float(
+    du.vent_area_en14491(
+        60.0,
+        starch.deflagration_index,
+        starch.explosion_pressure,
+        reduced_pressure=4e4,
+        activation_pressure=1e4,
+    )
+)
+held = float(du.oxygen_permitted_nfpa69(starch.limiting_oxygen, True))
+nitrogen_per_air = float(du.inert_gas_flow_steady(1.0, held))
 
 # ---- field
 radius, speed = 0.05, 20.0

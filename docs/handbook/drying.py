@@ -4,10 +4,10 @@ import csv
 from pathlib import Path
 
 import numpy as np
-from chapters import said
 from validation import drying_curve
 
 import granum as gr
+from granum.app.chapters import said
 from granum.app.shipped import examples_folder
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 
@@ -60,6 +60,15 @@ activity = {
     x: float(d.water_activity(x, isotherm="maize", temperature=float(half[80].temperature_outlet)))
     for x in (0.18, 0.08)
 }
+stored = d.bin_aeration(
+    mass="100 t",
+    area=20.0,
+    volume_flow="600 m^3/hour",
+    temperature="30 degC",
+    moisture_dry_basis=0.18,
+    temperature_air="10 degC",
+    relative_humidity=0.65,
+)
 floor = d.equilibrium_moisture(float(hot.relative_humidity), isotherm="maize", temperature="50 degC")
 net = {
     x: float(d.isosteric_heat(x, isotherm="maize", temperature="50 degC").isosteric_heat_net)
@@ -247,3 +256,20 @@ def figure_thickness():
         )
     drawing.update_yaxes(range=[-2, 0])
     return drawing
+
+
+# ---- shelves
+layer = {
+    f"{mm} mm": d.contact_layer_drying(
+        thickness=f"{mm} mm",
+        bulk_density_dry=500.0,
+        moisture_dry_basis_inlet=0.97,
+        moisture_outlet=0.008,
+        wall_temperature="70 degC",
+        temperature_bed="38.5 degC",
+        heat_transfer_coefficient=80.0,
+        thermal_conductivity_dry=0.43,
+        heat_of_vaporization="2408 kJ/kg",
+    ).drying_time
+    for mm in (25, 50)
+}

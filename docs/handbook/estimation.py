@@ -6,10 +6,10 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
-from chapters import said
 from scipy import stats
 
 import granum as gr
+from granum.app.chapters import said
 from granum.app.shipped import examples_folder
 from granum.core.charts import DASHES, LINES, add_line, add_points, figure
 from granum.estimation import Huber, fit, next_experiment

@@ -1,5 +1,6 @@
 """What the chapter on filtration states, calculated."""
 
+from math import log
 from pathlib import Path
 
 from validation import filtration_leaf, filtration_pressures
@@ -72,6 +73,18 @@ lost = 1 - (float(volume_twice) / (twice + 1800)) / float(press.mean_filtrate_fl
 drum_rate = float(drum_flow) * 23.47
 drum_cake = drum_rate * 120 / 50 / (2710 * 0.5)
 
+# ---- own weight
+thin_slurry = {
+    "cake_resistance": "1e9 m/kg",
+    "medium_resistance": "1e9 1/m",
+    "dry_cake_per_filtrate": "30 kg/m3",
+    "dynamic_viscosity": "1 cP",
+    "liquid_density": 998,
+}
+sunk_half = f.filtration_time_falling_head("25 cm", "50 cm", **thin_slurry)
+sunk = f.filtration_time_falling_head("49 cm", "50 cm", **thin_slurry)
+sunk_deep = f.filtration_time_falling_head("98 cm", "100 cm", **thin_slurry)
+
 # ---- wash
 left_good = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=50)
 left_poor = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=5)
@@ -134,3 +147,39 @@ def figure_cycle():
 
 def figure_washing():
     return f.washing_chart(dispersion_number=5.0)
+
+
+# ---- membranes
+def limit(protein):
+    """Flux that polarization allows, gel at 250 g/L."""
+    return f.filtrate_flux_limiting("5e-6 m/s", "250 g/L", f"{protein} g/L")
+
+
+water_flux = f.filtrate_flux_membrane("3 bar", "0.6 cP", "6e12 1/m")
+flux = {protein: limit(protein) for protein in (6, 25, 100)}
+
+
+def osmotic(salt):
+    """Osmotic pressure of sodium chloride by mass fraction, from its water activity at 25 °C."""
+    ratio = salt / (1 - salt)
+    return f.osmotic_pressure_activity(gr.materials.solute("sodium chloride").solvent_activity(298.15, ratio))
+
+
+pressed = {salt: osmotic(salt) for salt in (0.01, 0.035, 0.07, 0.20)}
+half_out = pressed[0.07] / 0.5
+"""Pump work for a volume of permeate where half of sea water passes at the least pressure."""
+evaporated = 930e3 * 1000
+times = evaporated / half_out
+
+
+# ---- carbon
+def carbon_life(minutes):
+    """Of a bed for the traces of toluene, 5 % through."""
+    return f.breakthrough_time_wheeler_jonas(f"{minutes} min", traces, water_load, 450, "0.02 1/s")
+
+
+traces, vapor = 0.01, 4.7e-3
+water_load = f.FreundlichIsotherm("26.1 mg/g", 0.44)(traces)
+air_load = f.FreundlichIsotherm("300 mg/g", 0.11, "1 g/m^3")(vapor)
+front = log(19.0) / 0.02
+life = {minutes: carbon_life(minutes) for minutes in (15, 7.5)}

@@ -1,10 +1,10 @@
 """What the chapter on fluidization states, calculated."""
 
 import numpy as np
-from chapters import said
 from validation import fluidization_curve
 
 import granum as gr
+from granum.app.chapters import said
 from granum.core.charts import ACCENT, DASHES, LINES, OUT, add_line, add_points, axis_title, figure
 
 fl, p, m = gr.fluidization, gr.particles, gr.materials

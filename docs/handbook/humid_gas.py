@@ -1,15 +1,17 @@
 """What the chapter on humid gas states, calculated."""
 
 import numpy as np
-from chapters import said
 from validation import humid_gas_saturation
 
 import granum as gr
+from granum.app.chapters import said
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 
 h = gr.humid_gas
 
 # ---- state
+air = h.air_composition()
+nitrogen, oxygen, argon = (float(x) for x in air.mole_fraction[:3])
 room = h.state(temperature="25 degC", relative_humidity="50 %")
 hot = h.state(temperature="80 degC", humidity_ratio=float(room.humidity_ratio))
 rule = {t: float(h.humidity_ratio_saturated(f"{t} degC")) for t in (10, 20, 30, 60, 90)}

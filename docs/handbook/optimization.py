@@ -5,10 +5,10 @@ from math import erf, log, pi, sqrt
 
 import jax
 import numpy as np
-from chapters import said
 
 import granum as gr
 from granum import studies
+from granum.app.chapters import said
 from granum.core.charts import DASHES, LINES, add_line, figure
 
 f, p = gr.filtration, gr.conveying

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import numpy as np
-from chapters import said
 from validation import particles_sizes
 
 import granum as gr
+from granum.app.chapters import said
 from granum.app.shipped import examples_folder
 from granum.core import registry
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure

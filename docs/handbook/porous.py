@@ -3,10 +3,10 @@
 from math import pi
 
 import numpy as np
-from chapters import said
 from validation import porous_bed
 
 import granum as gr
+from granum.app.chapters import said
 from granum.core import registry
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 
@@ -71,6 +71,12 @@ channels = {
     ratio: (e**3 / (1 - e) ** 2) / (void[50] ** 3 / (1 - void[50]) ** 2) - 1 for ratio, e in void.items()
 }
 slipped = float(po.permeability_klinkenberg(1e-15, "1 bar", "3 bar")) / 1e-15
+
+# ---- liquids that do not follow Newton
+thinned, thinned_fast = (
+    float(po.dynamic_viscosity_bed_christopher_middleman(U, "1 mm", 0.5, 1.0, 0.5))
+    for U in ("1 mm/s", "10 mm/s")
+)
 
 # ---- catalyst
 HOT = {"temperature": "200 degC", "molar_mass": "28.97 g/mol", "dynamic_viscosity": "25.8 uPa s"}

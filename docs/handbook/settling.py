@@ -96,6 +96,10 @@ smallest = float(p.terminal_diameter("1 m/hour", **QUARTZ))
 ideal = float(s.removal_efficiency_camp("0.5 m/hour", "1 m/hour"))
 real = float(s.removal_efficiency_hazen("0.5 m/hour", "1 m/hour"))
 real_full = float(s.removal_efficiency_hazen("1 m/hour", "1 m/hour"))
+# ---- layers
+benchmark = {"feed_concentration": 3.269837, "area": 1500, "height": 4, "nonsettleable_share": 0.00228}
+plant = s.settler_layers("36892 m^3/day", underflow_volume_flow="18831 m^3/day", **benchmark)
+storm = s.settler_layers("73784 m^3/day", underflow_volume_flow="18831 m^3/day", **benchmark)
 # ---- plates
 between = float(s.critical_velocity_countercurrent("10 m/hour", "1.2 m", "5 cm", "60 degree"))
 projected = float(s.lamella_area(plate_number=100, area="1.2 m^2", plate_angle="60 degree"))

@@ -5,10 +5,10 @@ from functools import cache
 from math import ceil, log
 
 import numpy as np
-from chapters import said
 from validation import EXAMPLES
 
 import granum as gr
+from granum.app.chapters import said
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 from granum.flowsheet.specifications import Target
 

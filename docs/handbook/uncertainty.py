@@ -5,11 +5,11 @@ from math import exp, log, sqrt
 from pathlib import Path
 
 import numpy as np
-from chapters import said
 from scipy.special import ndtr, ndtri
 
 import granum as gr
 from granum import studies
+from granum.app.chapters import said
 from granum.app.shipped import examples_folder
 from granum.cases import read_text
 from granum.core.charts import DASHES, LINES, add_line, figure
@@ -281,32 +281,6 @@ tested = sqrt(log(1.05) ** 2 + BY_HAND[FLOW] ** 2 + BY_HAND[STEAM] ** 2)
 worth_of_test = yearly(best()) - yearly(best(100.0, tested), 100.0, tested)
 per_area = (charge(median * 1.005) - charge(median * 0.995)) / (0.01 * median)
 short_area = TONNES * 100.0 / median
-
-
-def figure_parting():
-    drawing = figure(said("velocity, mm/s", "vitesse, mm/s"), said("slower than that, %", "plus lents, %"))
-    drawing.update_xaxes(range=[-1.0, 14.0])
-    shown = ((0.1, "10"), (0.4, "40"))
-    for color, (spread, text) in zip(LINES, shown, strict=False):
-        speeds = 1e3 * np.sort(drawn(spread).column("terminal_velocity"))
-        grid = np.linspace(0.5, 99.5, 100)
-        add_line(
-            drawing,
-            np.percentile(speeds, grid),
-            grid,
-            said(f"{text}%, draws", f"{text} %, tirages"),
-            color=color,
-        )
-        place, width = 1e3 * middle(spread), 1e3 * half(spread)
-        add_line(
-            drawing,
-            place + width * ndtri(grid / 100.0),
-            grid,
-            said(f"{text}%, derivative", f"{text} %, dérivée"),
-            color=color,
-            dash=DASHES[1],
-        )
-    return drawing
 
 
 def figure_margin():

@@ -1,8 +1,8 @@
 """Granum: fluid–solid unit operations from lab data to process line.
 
 ``granum.particles``, ``granum.filtration`` … load when first used; ``granum.read`` opens a case file;
-``granum.alone`` is a piece of equipment with an ordinary feed, ``granum.search`` finds a card by what people
-call it.
+``granum.alone`` is a piece of equipment with an ordinary feed, ``granum.size`` the same sized for a duty,
+``granum.search`` finds a card by what people call it.
 """
 
 from __future__ import annotations
@@ -55,12 +55,12 @@ def __getattr__(name: str) -> Any:
         return import_module(f"granum.{name}")
     if name == "read":
         return import_module("granum.cases").read
-    if name == "alone":
-        return import_module("granum.cases").alone
+    if name in ("alone", "size"):
+        return getattr(import_module("granum.cases"), name)
     if name == "search":
         return import_module("granum.core.search").search
     raise AttributeError(f"granum has no '{name}'")
 
 
 def __dir__() -> list[str]:
-    return sorted((*_SUBPACKAGES, "alone", "read", "search", "__version__"))
+    return sorted((*_SUBPACKAGES, "alone", "read", "search", "size", "__version__"))

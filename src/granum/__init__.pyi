@@ -27,6 +27,7 @@ from granum import streams as streams
 from granum import studies as studies
 from granum.cases import alone as alone
 from granum.cases import read as read
+from granum.cases import size as size
 from granum.core.search import search as search
 
 __version__: str

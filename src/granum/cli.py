@@ -67,7 +67,11 @@ def calc(
     inputs: Pairs = None,
     as_json: Json = False,
     solve: Annotated[
-        str, typer.Option(help="An input to find: the wanted result stands among the inputs.")
+        str,
+        typer.Option(
+            help="An input to find: the wanted result stands among the inputs. Of equipment, 'size' is what "
+            "it is sized by."
+        ),
     ] = "",
     report: Annotated[Path | None, typer.Option(help="Write a calculation sheet (HTML).")] = None,
 ) -> None:
@@ -80,7 +84,7 @@ def calc(
 
     thing = registry.find(key)
     if thing.card.sort == "equipment":
-        _operate(key, pairs(inputs), as_json)
+        _operate(key, pairs(inputs), as_json, solve)
         return
     if not hasattr(thing, "evaluate"):
         hint = {"lab test": "granum fit {key} data.csv …"}.get(thing.card.sort, "granum show {key}")
@@ -120,17 +124,34 @@ def calc(
             print(_("saved to {path}").format(path=report))
 
 
-def _operate(key: str, inputs: Mapping[str, str], as_json: bool) -> None:
-    """A piece of equipment in a line of its own."""
-    from granum.cases.alone import case_text
+def _operate(key: str, inputs: Mapping[str, str], as_json: bool, solve: str) -> None:
+    """A piece of equipment in a line of its own; sized where something is to be found."""
+    from granum.cases.alone import assumed, case_text
     from granum.cases.reading import read_text
     from granum.reports.terminal_run import print_run
 
-    outcome = read_text(case_text(key, inputs), name=key).solve()
+    if solve:
+        from granum.cases.sizing import doubts, sought
+
+        found = sought(key, inputs, "" if solve == "size" else solve)
+        outcome = read_text(found.text, name=key).solve()
+        rest = assumed(key, found.words | {found.path.partition(".")[2]: outcome.found[found.path]})
+        against = doubts(outcome)
+    else:
+        outcome = read_text(case_text(key, inputs), name=key).solve()
+        rest, against = assumed(key, inputs), ""
     if as_json:
-        emit(outcome.as_json())
+        emit(outcome.as_json() | {"assumed": rest} | ({"doubts": against} if against else {}))
     else:
         print_run(outcome)
+        if against:
+            print(against)
+        _print_assumed(rest)
+
+
+def _print_assumed(rest: Mapping[str, str]) -> None:
+    told = ", ".join(f"{word}={value}" for word, value in rest.items())
+    print(_("Not said, hence as in the example: {words}").format(words=told or "—"))
 
 
 @app.command()
@@ -206,7 +227,9 @@ def run(
     case: CaseFile,
     as_json: Json = False,
     report: Annotated[Path | None, typer.Option(help="Write an HTML report.")] = None,
-    tables: Annotated[Path | None, typer.Option(help="Write streams and results as .csv or .xlsx.")] = None,
+    tables: Annotated[
+        Path | None, typer.Option(help="Write streams, results, specifications and checks as .csv or .xlsx.")
+    ] = None,
     minutes: Annotated[float, typer.Option(min=0.01, help="The most time to spend on solving.")] = 15.0,
     partial: Annotated[
         bool,
@@ -290,7 +313,7 @@ def study(
         typer.Option(
             "--out",
             "-o",
-            help="Write all cases as .nc, .parquet or .csv; a killed study continues from FILE.parts.",
+            help="Write all cases as .nc, .parquet, .csv or .xlsx; a killed study continues from FILE.parts.",
         ),
     ] = None,
     report: Annotated[Path | None, typer.Option(help="Write an HTML report with charts.")] = None,
@@ -308,7 +331,7 @@ def study(
     from granum.reports.progress import advancing, working
     from granum.studies.report import stoppable
 
-    case = Path(model)
+    case, rest = Path(model), None
     of_card = {
         "minimize": minimize,
         "maximize": maximize,
@@ -330,7 +353,12 @@ def study(
             known = studies_of_text(text, folder=case.parent, name=case.name)
         else:
             from granum.cases.worded import study_text
+            from granum.core import registry
 
+            if registry.find(model).card.sort == "equipment":
+                from granum.cases.alone import assumed
+
+                rest = assumed(model, pairs(names))
             text, wanted = study_text(model, pairs(names), samples=samples, **of_card), []
             known = studies_of_text(text, name=model)
     for name in wanted:
@@ -374,12 +402,15 @@ def study(
     if as_json:
         emit(
             {"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}}
+            | ({} if rest is None else {"assumed": rest})
         )
     else:
         from granum.studies.report import print_study
 
         for outcome in outcomes:
             print_study(outcome, saved=saved if outcome is outcomes[-1] else ())
+        if rest is not None:
+            _print_assumed(rest)
 
 
 @app.command()

@@ -2,56 +2,38 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import axe_selenium_python.axe
+from docs import headless
 from selenium import webdriver
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
+from selenium.common.exceptions import StaleElementReferenceException, TimeoutException
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
-NEEDED = (
-    "these tests need Debian's packages chromium and chromium-driver: apt-get install chromium "
-    "chromium-driver"
-)
 PATIENCE = 240.0  # seconds: a first calculation compiles, and continuous integration is slow
+SCRIPT_PATIENCE = 60.0
 
 
 @contextmanager
 def chromium() -> Iterator[webdriver.Chrome]:
-    """A browser without a window."""
-    program, driver = shutil.which("chromium"), shutil.which("chromedriver")
-    assert program, NEEDED
-    assert driver, NEEDED
-    options = Options()
-    options.binary_location = program
-    for argument in (
-        "--headless=new",
-        "--no-sandbox",
-        "--disable-gpu",
+    """A browser that sees nothing but this computer and keeps what it has to say."""
+    quiet = (
         "--no-first-run",
         "--disable-background-networking",
         "--disable-component-update",
         "--disable-sync",
-        "--disable-dev-shm-usage",
         "--window-size=1400,900",
         "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
-    ):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    found = webdriver.Chrome(options=options, service=Service(driver))
-    found.set_page_load_timeout(PATIENCE)
-    found.set_script_timeout(60)
-    try:
+    )
+    logs = {"goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}
+    with headless.chromium(SCRIPT_PATIENCE, *quiet, capabilities=logs) as found:
+        found.set_page_load_timeout(PATIENCE)
         yield found
-    finally:
-        found.quit()
 
 
 class Page:
@@ -83,13 +65,39 @@ class Page:
         self.until(lambda: self.browser.execute_script(ready))
 
     def until(self, condition: Callable[[], Any]) -> Any:
-        return WebDriverWait(self.browser, PATIENCE, poll_frequency=0.1).until(lambda _browser: condition())
+        """What a condition gives once it holds; a page drawn anew between two looks is looked at again."""
+        return WebDriverWait(
+            self.browser, PATIENCE, poll_frequency=0.1, ignored_exceptions=[StaleElementReferenceException]
+        ).until(lambda _browser: condition())
 
     def one(self, selector: str) -> Any:
         return self.until(lambda: next(iter(self.browser.find_elements(By.CSS_SELECTOR, selector)), None))
 
     def all(self, selector: str) -> list[Any]:
         return self.browser.find_elements(By.CSS_SELECTOR, selector)
+
+    def text(self, selector: str) -> str:
+        """The text of an element, read again where it is drawn anew between the finding and the reading."""
+        return self.until(lambda: (self.one(selector).text,))[0]
+
+    def texts(self, selector: str) -> list[str]:
+        """The texts of all such elements, of one drawing of the page."""
+        return self.until(lambda: ([e.text for e in self.all(selector)],))[0]
+
+    def says(self, selector: str, words: str) -> None:
+        """Wait until an element has these words; where it never has, tell what it had instead."""
+        self.shown(selector, words, lambda text: words in text)
+
+    def reads(self, selector: str, words: str) -> None:
+        """Wait until these words are all that an element has."""
+        self.shown(selector, words, lambda text: text == words)
+
+    def shown(self, selector: str, words: str, right: Callable[[str], bool]) -> None:
+        self.one(selector)
+        try:
+            self.until(lambda: right(self.text(selector)))
+        except TimeoutException:
+            raise AssertionError(f"{selector}: {words!r} expected, {self.text(selector)!r} found") from None
 
     def button(self, text: str) -> Any:
         return self.until(lambda: next((b for b in self.all("button") if b.text == text), None))
@@ -146,3 +154,11 @@ class Page:
             "axe.run({rules: {region: {enabled: false}}}).then((r) => arguments[0](r.violations))"
         )
         assert not found, [(v["id"], [n["html"][:160] for n in v["nodes"][:3]]) for v in found]
+
+
+def resize(page: Page, width: int) -> None:
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    page.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    page.browser.execute_async_script(
+        "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(arguments[0], 60)))"
+    )

@@ -450,7 +450,7 @@ def test_every_selection_guide_answers_its_own_example(client: httpx.Client) -> 
         table = answer.json()["table"]
         assert table, "a choice is shown as a table"
         assert all(len(row) == len(table["columns"]) for row in table["rows"])
-    assert "JSON" in message(client.post(f"/api/calc/{guides[0]}", json={"solubility": "{law"}))
+    assert "is no table" in message(client.post(f"/api/calc/{guides[0]}", json={"solubility": "{law"}))
 
 
 def test_other_laws_answer_the_same_question(client: httpx.Client) -> None:
@@ -714,3 +714,18 @@ def test_every_message_of_the_server_has_its_french() -> None:
                 if text not in catalog("fr"):
                     missing.add(text)
     assert not missing
+
+
+@pytest.mark.parametrize("key", ["drying.choose", "filtration.separator_choice", "crystallization.choose"])
+def test_what_has_no_symbol_is_told_by_its_name_in_words(client: httpx.Client, key: str) -> None:
+    form = client.get(f"/api/cards/{key}").json()
+    values = {
+        p["name"]: f"{p['example']['number']} {p['example']['unit']}".strip()
+        for p in form["parameters"]
+        if p["example"]
+    }
+    found = client.post(f"/api/calc/{key}?lang=fr", json=values).json()
+    names = {row["name"] for row in found["inputs_shown"]}
+    assert names
+    assert not [row for row in found["inputs_shown"] if row["symbol"] in names]
+    assert all(row["label"] for row in found["inputs_shown"])

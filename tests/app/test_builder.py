@@ -166,7 +166,7 @@ def test_units_are_renamed_bypassed_and_deleted_from_their_panel_and_specified(p
     page.button("Add the specification").click()
     page.one("[data-specification]")
     solved(page)
-    assert "found" in page.one(".findings").text
+    page.says(".findings", "found")
     press(page, "[data-unit=purge]")
     page.button("Delete").click()
     page.until(lambda: "purge" not in case_of(page)["units"])
@@ -184,7 +184,7 @@ def test_an_open_end_is_dragged_to_an_inlet(page: Page) -> None:
     solved(page)
     page.button("Add equipment").click()
     pick(page, "nutsche", "Search equipment")
-    assert page.until(lambda: "Filter has no feed yet." in page.one("[data-missing]").text)
+    assert page.until(lambda: "Filter has no feed yet." in page.text("[data-missing]"))
     page.one("[data-panel=filter]")
     page.until(lambda: page.all("[data-inlet='filter.feed']"))
     start = page.one("[data-outlet='crystallizer.product'] .sign")
@@ -276,7 +276,7 @@ def test_tables_of_a_line_are_taken_as_files(address: str) -> None:
         }
     rows = list(csv.reader(io.StringIO(answers["csv"].text)))
     book = openpyxl.load_workbook(io.BytesIO(answers["xlsx"].content))
-    assert book.sheetnames == ["streams", "results", "utilities"]
+    assert book.sheetnames == ["streams", "results", "specifications", "checks", "utilities"]
     assert [str(cell.value) for cell in book["streams"][1]] == rows[0]
     assert answers["pdf"].status_code == 422
 
@@ -321,3 +321,42 @@ def test_every_piece_of_equipment_is_found_in_both_languages(address: str) -> No
     for english, french in zip(shown["en"], shown["fr"], strict=True):
         assert french["title"] in english["other_names"]
         assert english["title"] in french["other_names"]
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_a_line_of_a_substance_of_ones_own_is_begun_and_its_constants_changed(
+    page: Page, language: str
+) -> None:
+    w = WORDS[language]
+    use, keep = {
+        "en": ("Use this substance", "Use these values"),
+        "fr": ("Prendre cette substance", "Prendre ces valeurs"),
+    }[language]
+    page.open("lines", language, width=390)
+    page.button(w["new"]).click()
+    page.type("#new-title", "PVC")
+    page.one("input[name=enters][value=moist_solid]").click()
+    page.one("[data-describe] summary").click()
+    page.type("#new-own-name", "PVC fin")
+    page.leave(page.type("#new-own-solids-density", "1,4 g/cm3"))
+    page.leave(page.type("#new-own-solids-heat_capacity", "0,9"))
+    page.button(use).click()
+    page.until(lambda: page.one("#new-solid").get_attribute("value") == "PVC fin")
+    page.check()
+    page.button(w["create"]).click()
+    pick(page, w["dryer"], w["search"])
+    solved(page)
+    assert case_of(page)["solid"] == {"PVC fin": {"density": "1.4 g/cm^3", "heat_capacity": "0.9 kJ/(kg*K)"}}
+    narrow = """return [...document.querySelectorAll('[data-panel] .quantity input')]
+      .map((e) => [e.id, e.clientWidth]).filter(([, width]) => width < 100)"""
+    assert page.all("[data-panel] .quantity input")
+    assert page.browser.execute_script(narrow) == []  # on a phone too a number can be read and typed
+    page.browser.execute_script("document.querySelector('[data-substances]').open = true")
+    page.leave(page.type("#own-solid-PVC_fin-density", "1500"))
+    page.button(keep).click()  # in g/cm³, as the menu beside it says
+    page.until(lambda: "10 kg/m³" in page.one("[data-own='PVC fin'] .out").text)
+    page.leave(page.type("#own-solid-PVC_fin-density", "1500 kg/m3"))
+    page.button(keep).click()
+    page.until(lambda: case_of(page)["solid"]["PVC fin"]["density"] == "1500 kg/m^3")
+    solved(page)
+    page.check(refused=True)

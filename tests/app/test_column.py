@@ -36,7 +36,7 @@ def client(address: str) -> Iterator[httpx.Client]:
 def test_the_column_stands_at_every_width(page: Page, language: str, width: int) -> None:
     page.open(PLACE, language, width, "dark" if width == 1100 else "light")
     page.until(lambda: page.all(".sensitivity .main-svg"))
-    told = page.one("[data-beside=reynolds]").text
+    told = page.text("[data-beside=reynolds]")
     assert ("above 0 … 0.2" if language == "en" else "au-dessus de 0 … 0,2") in told
     assert page.one("[data-numbers] math")
     page.check()
@@ -44,15 +44,15 @@ def test_the_column_stands_at_every_width(page: Page, language: str, width: int)
 
 def test_a_value_is_shown_in_the_chosen_unit_and_keeps_its_digits(page: Page) -> None:
     page.open(PLACE)
-    assert page.one(VALUE).text == "5.281 mm/s"
+    page.reads(VALUE, "5.281 mm/s")
     Select(page.one(".answer .units select")).select_by_value("m/hour")
-    page.until(lambda: page.one(VALUE).text == "19.01 m/h")
+    page.reads(VALUE, "19.01 m/h")
     assert page.one(VALUE).get_attribute("title").startswith("19.01")
     assert len(page.one(VALUE).get_attribute("title")) > 12
-    page.until(lambda: "m/h" in page.one(".sensitivity .ytitle").text)
+    page.until(lambda: "m/h" in page.text(".sensitivity .ytitle"))
     page.type(DIAMETER, "90")
     page.until(page.fresh)
-    assert page.one(VALUE).text.endswith("m/h")
+    page.until(lambda: page.text(VALUE).endswith("m/h"))
 
 
 def test_the_chart_follows_the_inputs_and_the_choice_of_one(page: Page) -> None:
@@ -98,11 +98,9 @@ def test_an_input_is_found_for_a_wanted_result(page: Page, language: str) -> Non
     page.type("#wanted", "21.124 mm/s")
     found = lambda: page.one(DIAMETER).get_attribute("value").replace(",", ".")  # noqa: E731
     page.until(lambda: float(found()) == pytest.approx(170.0, rel=1e-3))
-    page.until(lambda: page.fresh() and page.one(VALUE).text.replace(",", ".").startswith("21.12"))
+    page.until(lambda: page.fresh() and page.text(VALUE).replace(",", ".").startswith("21.12"))
     page.type("#wanted", "-1")
-    page.until(
-        lambda: {"en": "is not reached", "fr": "n’est atteint"}[language] in page.one("#wanted-note").text
-    )
+    page.until(lambda: {"en": "is not reached", "fr": "n’est atteint"}[language] in page.text("#wanted-note"))
     page.browser.get_log("browser")
     page.check()
 
@@ -113,10 +111,10 @@ def test_an_interval_is_typed_and_the_result_is_one(page: Page, language: str) -
     point = "," if language == "fr" else "."
     field = page.type(DIAMETER, "85 ± 5 um")
     page.until(lambda: page.all("[data-interval]"))
-    assert page.one("[data-interval]").text.replace(point, ".").startswith("5.28 ± 0.62 mm/s")
+    assert page.text("[data-interval]").replace(point, ".").startswith("5.28 ± 0.62 mm/s")
     assert page.leave(field) == ("85 ± 5", "um")
     page.type(DIAMETER, "80..90 um")
-    page.until(lambda: "…" in page.one("[data-interval]").text)
+    page.until(lambda: "…" in page.text("[data-interval]"))
     page.browser.get_log("browser")
     page.check()
 
@@ -126,8 +124,8 @@ def test_a_comparison_shows_what_changed_and_by_how_much(page: Page) -> None:
     page.until(page.fresh)
     page.button("Keep to compare").click()
     page.type(DIAMETER, "170")
-    page.until(lambda: [e.text for e in page.all("[data-comparison] [data-change]")] == ["+300 %", "+100 %"])
-    rows = [e.text for e in page.all("[data-comparison] tbody tr")]
+    page.until(lambda: page.texts("[data-comparison] [data-change]") == ["+300 %", "+100 %"])
+    rows = page.texts("[data-comparison] tbody tr")
     assert len(rows) == 2, "what is the same is folded"
     page.check()
 
@@ -137,7 +135,7 @@ def test_what_may_be_left_out_is_folded_and_what_is_refused_unfolds(page: Page) 
     assert not page.one("#field-gravity").is_displayed()
     page.one("details.more summary").click()
     page.type("#field-sphericity", "1.2")
-    page.until(lambda: page.one(".field.wrong .out").text)
+    page.until(lambda: page.text(".field.wrong .out"))
     page.open("calculate/particles.terminal_velocity?sphericity=1.2")
     assert page.one("#field-sphericity").is_displayed()
 
@@ -225,5 +223,5 @@ def test_an_input_of_a_law_is_found(client: httpx.Client) -> None:
 def test_the_streams_of_a_machine_alone_have_names_of_the_language(page: Page) -> None:
     page.open("calculate/evaporation.evaporator", "fr")
     page.one("[data-figure]")
-    names = [e.text for e in page.all("thead th")]
+    names = page.texts("thead th")
     assert {"alimentation", "produit", "vapeur"} <= set(names), names

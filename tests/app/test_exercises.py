@@ -103,7 +103,7 @@ def test_a_student_answers(
     page.type(field, radius)
     page.one("[data-step='0'] button.main").click()
     page.one("[data-step='0'] [data-verdict=wrong]")
-    said = page.one("[data-step='0'] [data-verdict]").text
+    said = page.text("[data-step='0'] [data-verdict]")
     assert ("radius" if language_code == "en" else "rayon") in said
     page.button(hint).click()
     assert page.one("[data-hint] math")
@@ -111,7 +111,7 @@ def test_a_student_answers(
     assert page.button(check)
     page.one("[data-step='0'] button.main").click()
     page.one("[data-step='0'] [data-verdict=right]")
-    page.until(lambda: "1/3" in page.one(".course a[aria-current]").text)
+    page.until(lambda: "1/3" in page.text(".course a[aria-current]"))
     page.check()
     page.browser.refresh()
     page.settle()
@@ -121,19 +121,19 @@ def test_a_student_answers(
 
 def test_fresh_numbers_and_the_answer_on_request(page: Page) -> None:
     page.open("exercises/falling-crystal")
-    before = page.one(".statement").text
+    before = page.text(".statement")
     page.button("Other numbers").click()
     page.until(lambda: "seed=" in page.browser.current_url and page.all(".statement"))
-    page.until(lambda: page.one(".statement").text != before)
+    page.until(lambda: page.text(".statement") != before)
     next(b for b in page.all("[data-step='0'] button") if b.text == "Show the answer").click()
-    assert "mm/s" in page.one("[data-step='0'] [data-output=terminal_velocity]").text
+    page.says("[data-step='0'] [data-output=terminal_velocity]", "mm/s")
     page.check()
 
 
 def test_the_print_stands_beside_the_answer_with_its_erratum(page: Page) -> None:
     page.open("exercises/counted-powder", width=390)
     next(b for b in page.all("[data-step='1'] button") if b.text == "Show the answer").click()
-    assert "2.3 %" in page.one("[data-printed]").text
-    assert "2.7 %" in page.one("[data-step='1'] [data-output]").text
-    assert "2.7 %" in page.one("[data-erratum]").text
+    page.says("[data-printed]", "2.3 %")
+    page.says("[data-step='1'] [data-output]", "2.7 %")
+    page.says("[data-erratum]", "2.7 %")
     page.check()

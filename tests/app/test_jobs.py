@@ -5,6 +5,7 @@ leave.
 from __future__ import annotations
 
 import json
+import queue
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -15,7 +16,7 @@ import httpx
 import pytest
 from tests.sharing.falling import SPHERE, STOKES
 
-from granum.app import jobs, tasks, wear
+from granum.app import jobs, tasks, wear, worker
 from granum.app import studies as app_studies
 from granum.app.jobs import Crew, GivenUp, Job, Jobs, Refused
 from granum.app.limits import Busy, Familiar
@@ -115,7 +116,7 @@ def test_what_nobody_asks_about_is_cancelled(crew: Crew, monkeypatch: pytest.Mon
     held = Jobs(lambda: crew, patience=0.3)
     name = held.start({"seconds": 60}, "", longest=100.0, task="rest")
     job = held._jobs[name]
-    with pytest.raises(GivenUp, match="cancelled"):
+    with pytest.raises(GivenUp, match="canceled"):
         job.future.result(timeout=60)
     assert jobs.PATIENCE >= 600  # a hidden page asks once a minute
     with pytest.raises(InputError, match="no job"):
@@ -314,6 +315,22 @@ def test_an_idle_process_that_holds_much_memory_is_replaced(monkeypatch: pytest.
         assert json.loads(made.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}
     finally:
         made.close()
+
+
+def test_a_worker_at_rest_gives_back_what_it_does_not_need(monkeypatch: pytest.MonkeyPatch) -> None:
+    waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    given: list[str] = []
+
+    def give_back() -> None:
+        given.append("memory")
+        waiting.put("the next")
+
+    monkeypatch.setattr(worker, "REST", 0.01)
+    monkeypatch.setattr(worker, "give_back", give_back)
+    assert worker._next(waiting) == "the next"
+    waiting.put("at once")
+    assert worker._next(waiting) == "at once"
+    assert given == ["memory"]
 
 
 def test_compiled_code_is_forgotten_when_there_is_much_of_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ from urllib.parse import quote
 
 import httpx
 import pytest
-from tests.app.browsing import Page
+from tests.app.browsing import Page, resize
 
 SPHERE = "particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"  # noqa: E501
 STOKES = f"studies/{quote('card:particles.terminal_velocity_stokes', safe='')}?{SPHERE}"
@@ -30,18 +30,18 @@ def test_a_study_is_found_again_in_a_new_tab(page: Page, language: str) -> None:
     page.type("[data-limit=low] input", "5 mm/s" if language == "en" else "5,0 mm/s")
     page.button(RUN[language]).click()
     page.one("[data-study=monte_carlo]")
-    asked = page.one("[data-question] h2").text
+    asked = page.text("[data-question] h2")
     assert "85 ±" in asked, "the question stands above its answer"
-    heads = [th.text for th in page.all("th")]
+    heads = page.texts("th")
     assert {"P10", "P50", "P90"} <= set(heads), "the table says what the chart says"
     # Stokes by hand: 5.28 mm/s at the mean; 5 mm/s is kept a little more often than not
-    chance = float(page.one("h3 ~ .wide ~ h3 ~ .wide td.n").text.split()[0].replace(",", "."))
+    chance = float(page.text("h3 ~ .wide ~ h3 ~ .wide td.n").split()[0].replace(",", "."))
     assert 50.0 < chance < 85.0
     page.check()
     closed_and_opened_again(page)
     assert page.one("[data-kind=monte_carlo]").is_selected()
     page.one("[data-study=monte_carlo]")
-    assert page.one("[data-question] h2").text == asked
+    page.reads("[data-question] h2", asked)
     assert not page.all("[data-old]"), "it answers the question that stands on the left"
     page.button("Français" if language == "en" else "English").click()
     page.settle()
@@ -54,10 +54,10 @@ def test_past_studies_are_listed_and_opened_with_their_set_up(page: Page) -> Non
     page.button(RUN["en"]).click()
     page.one("[data-study=sweep]")
     page.one("[data-kind=sobol]").click()
-    assert "next power of two" in page.one("[data-design]").text
+    page.says("[data-design]", "next power of two")
     page.button(RUN["en"]).click()
     page.one("[data-study=sobol]")
-    assert "3072 cases for 1000 samples" in page.one("[data-question]").text  # 1024 · (1 + 2)
+    page.says("[data-question]", "3072 cases for 1000 samples")  # 1024 · (1 + 2)
     page.one("[data-past] summary").click()
     page.until(lambda: len(page.all("[data-past] li")) == 2)
     page.all("[data-past] li button")[2].click()  # the first one made
@@ -67,7 +67,7 @@ def test_past_studies_are_listed_and_opened_with_their_set_up(page: Page) -> Non
     page.check()
     page.browser.refresh()
     page.settle()
-    assert page.one("[data-past] summary .dim").text == "2"
+    page.reads("[data-past] summary .dim", "2")
 
 
 def test_a_study_goes_on_while_another_page_is_looked_at(page: Page) -> None:
@@ -75,8 +75,8 @@ def test_a_study_goes_on_while_another_page_is_looked_at(page: Page) -> None:
     page.one("[data-kind=monte_carlo]").click()
     page.button(RUN["en"]).click()
     page.browser.execute_script("location.hash = '#/exercises'")
-    assert "study" in page.one("[data-elsewhere]").text
-    page.until(lambda: page.one("[data-elsewhere]").text == "A study is ready")
+    page.says("[data-elsewhere]", "study")
+    page.reads("[data-elsewhere]", "A study is ready")
     page.check()
     page.one("[data-elsewhere]").click()
     page.one("[data-study=monte_carlo]")
@@ -90,7 +90,7 @@ def test_scenarios_and_the_optimum_tell_the_present_value(page: Page) -> None:
     page.type("[data-case='1'] .quantity input", "42.5 um")
     page.button(RUN["en"]).click()
     page.one("[data-study=scenarios]")
-    cells = [td.text for td in page.all("tbody tr:last-child td")]
+    cells = page.texts("tbody tr:last-child td")
     # by hand: 5.281 mm/s, and a quarter of it
     assert cells == ["terminal velocity", "5.281 mm/s", "1.32 mm/s"]
     page.one("[data-kind=optimize]").click()
@@ -98,6 +98,9 @@ def test_scenarios_and_the_optimum_tell_the_present_value(page: Page) -> None:
     page.one("[data-study=optimize]")
     rows = [[td.text for td in row.find_elements("css selector", "td")] for row in page.all("tbody tr")]
     assert ["particle diameter", "85 µm", "76.5 µm"] in rows
+    resize(page, 390)
+    wide = "return [...document.querySelectorAll('.wide')].some((e) => e.scrollWidth > e.clientWidth)"
+    assert not page.browser.execute_script(wide), "on a phone its columns stand below one another"
     page.check()
 
 
@@ -123,4 +126,15 @@ def test_studies_of_a_file_are_offered(page: Page, address: str) -> None:
     page.open(f"studies/{quote('examples:lab-to-plant/line.toml', safe='')}")
     offered = page.all("[data-declared]")
     assert len(offered) == 5
+    chosen = "return document.querySelector('main select').selectedOptions[0].text"
+    english = page.browser.execute_script(chosen)
+    assert not english.endswith(".toml"), "a line is chosen by its title"
+    page.button("Français").click()
+    page.until(lambda: page.browser.execute_script(chosen) not in (english, ""))
+    page.settle()
+    labels = page.browser.execute_script(
+        "return [...document.querySelectorAll('.watched label')].map((e) => e.textContent)"
+    )
+    assert labels
+    assert not [text for text in labels if ": " in text and " : " not in text.replace("\u00a0", " ")]
     page.check()

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from tests.app.browsing import Page
+from tests.app.browsing import Page, resize
 
 PLACE = (
     "lab/filtration.leaf_test?area=0.05+m%5E2&pressure_drop=1+bar&dynamic_viscosity=1+cP&"
     "dry_cake_per_filtrate=20+kg%2Fm%5E3"
 )
 A, B = 4.0e6, 2000.0  # s/m⁶ and s/m³: α = 2 A Ω² Δp/(η W) = 1e11 m/kg
+HIDDEN = "return [...document.querySelectorAll('.wide')].some((e) => e.scrollWidth > e.clientWidth)"
 VOLUMES = (0.0005, 0.001, 0.0015, 0.002, 0.0025, 0.003)
 WIGGLE = (0.01, -0.01, 0.01, -0.02, 0.01, 0.0)
 
@@ -25,7 +26,7 @@ def table(heads: str, mark: str, stray: float = 0.0) -> str:
 
 def value(page: Page) -> float:
     """The cake resistance as the table says it, 10¹¹ m/kg."""
-    text = page.one("[data-parameter=cake_resistance] strong").text.replace(",", ".")
+    text = page.text("[data-parameter=cake_resistance] strong").replace(",", ".")
     number, power = text.strip("(").split(" ")[0], text.split("× 10")[-1]
     return float(number) * {"¹⁰": 0.1, "¹¹": 1.0, "¹²": 10.0}[power]
 
@@ -43,13 +44,16 @@ def test_french_headings_are_known_from_the_glossary(page: Page) -> None:
         for name in ("time", "filtrate_volume")
     ]
     assert chosen == ["Temps [s]", "Volume de filtrat [m3]"]
-    titles = [e.text for e in page.all("[data-parameter=cake_resistance] td")]
+    titles = page.texts("[data-parameter=cake_resistance] td")
     assert "±" in titles[1]
     assert "…" in titles[2]
     assert page.one("[data-statistics] tr:first-child td").get_attribute("textContent")
     # one axis for both: the residuals stand under the data
-    shared = "return document.querySelector('.plot')._fullLayout.yaxis2.anchor"
-    assert page.browser.execute_script(shared) == "x"
+    shared = "return document.querySelector('.plot')?._fullLayout?.yaxis2?.anchor"
+    page.until(lambda: page.browser.execute_script(shared) == "x")
+    for width in (1400, 1100, 390):
+        resize(page, width)
+        assert not page.browser.execute_script(HIDDEN), "a parameter is seen with its interval"
     page.check()
 
 
@@ -76,7 +80,7 @@ def test_a_point_is_left_out_by_its_tick_and_by_a_click(page: Page) -> None:
         "plot.emit('plotly_click', {event: {clientX: 0, clientY: 0}, points})"
     )
     page.until(lambda: page.all("[data-left-out]"))
-    assert page.one("[data-left-out]").text == "1 left out by you"
+    page.reads("[data-left-out]", "1 left out by you")
     page.settle()
     page.check()
 

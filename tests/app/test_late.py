@@ -88,7 +88,7 @@ def test_a_study_that_was_begun_before_its_field_was_understood_is_no_old_one(pa
     page.until(lambda: page.all("[data-study]"))
     rest(page, 1200)
     assert not page.all("[data-old]")
-    assert page.one("[data-question] h2").text.count("0.03 mm") == 1
+    assert page.text("[data-question] h2").count("0.03 mm") == 1
 
 
 def test_a_row_that_was_removed_stays_away(page: Page) -> None:

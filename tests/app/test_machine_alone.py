@@ -48,7 +48,7 @@ def test_a_machine_alone_is_studied_as_it_stands_on_the_screen(page: Page, langu
         menu,
         name,
     )
-    page.until(lambda: "7" in page.one(".varied .dim").text)
+    page.until(lambda: "7" in page.text(".varied .dim"))
     page.one(".button.main").click()
     page.until(lambda: page.all(".js-plotly-plot"))
     page.check()
@@ -90,6 +90,6 @@ def test_the_streams_of_a_machine_alone_fit_beside_its_form(page: Page, machine:
     table = page.one("[data-streams] table")
     cut = "const box = arguments[0].parentElement; return box.scrollWidth - box.clientWidth"
     assert page.browser.execute_script(cut, table) <= 0
-    heads = [e.text for e in page.all("[data-streams] tbody th")]
+    heads = page.texts("[data-streams] tbody th")
     assert any(head.startswith("T /") for head in heads), heads
     page.check()

@@ -48,11 +48,11 @@ def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -
     assert shown.text.startswith(f"5{point}28")  # Stokes by hand: 5.282 mm/s
     page.write("#field-particle_diameter", f"42{point}5")
     # a quarter of it
-    page.until(lambda: page.one("[data-output=terminal_velocity]").text.startswith(f"1{point}32"))
+    page.until(lambda: page.text("[data-output=terminal_velocity]").startswith(f"1{point}32"))
     page.one("#field-particle_diameter").send_keys(Keys.ENTER)
     page.until(lambda: "42.5" in page.browser.current_url)
     page.write("#field-particle_diameter", "-3")
-    page.until(lambda: page.all("[aria-invalid=true]") and page.one(".quantity .out").text)
+    page.until(lambda: page.all("[aria-invalid=true]") and page.text(".quantity .out"))
     assert not page.fresh(), "the result of other inputs is grey"
     page.button("Undo" if language == "en" else "Annuler").click()  # what was typed in one go is one step
     page.until(lambda: not page.all("[aria-invalid=true]"))
@@ -82,9 +82,7 @@ def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: st
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}", language)
     for typed, echo, number, unit, velocity in TYPED:
         field = page.type(DIAMETER, typed)
-        page.until(
-            lambda echo=echo: [e.text for e in page.all("[data-echo]")] == ["= " + echo.replace(".", point)]
-        )
+        page.until(lambda echo=echo: page.texts("[data-echo]") == ["= " + echo.replace(".", point)])
         assert page.leave(field) == (number.replace(".", point), unit)
         raw = (
             "fetch('/api/calc/particles.terminal_velocity_stokes', {method: 'POST', headers: "
@@ -101,13 +99,11 @@ def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: st
             f"{raw}.then((r) => r.json()).then((d) => arguments[1](d))", json.dumps(values)
         )
         assert body["outputs"]["terminal_velocity"]["value"] * 1e3 == pytest.approx(velocity, rel=1e-4)
-        assert page.one("[data-output=terminal_velocity]").text == body["shown"][0]["text"].replace(
-            ".", point
-        )
+        assert page.text("[data-output=terminal_velocity]") == body["shown"][0]["text"].replace(".", point)
     for typed in ("439 cm2", "eighty", "-5", "12 kg"):  # nothing is made of these
         page.type(DIAMETER, typed)
-        page.until(lambda: page.one(".quantity .out").text and not page.fresh())
-        told = page.one(".quantity .out").text
+        page.until(lambda: page.text(".quantity .out") and not page.fresh())
+        told = page.text(".quantity .out")
         assert "_" not in told, "a page speaks of labels"
     page.check(refused=True)
 
@@ -116,21 +112,21 @@ def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: st
 def test_a_temperature_below_zero_is_typed(page: Page, language: str) -> None:
     page.open("calculate/materials.ice_vapor_pressure", language)
     for typed, number in (("-5", "-5"), ("-12,5", "-12.5"), ("\u221212.5", "-12.5")):
-        before = page.one("[data-output]").text
+        before = page.text("[data-output]")
         assert page.leave(page.type(TEMPERATURE, typed)) == (
             number.replace(".", "," if language == "fr" else "."),
             "degC",
         )
-        assert (page.one("[data-output]").text == before) == (typed[0] != "-")
+        assert (page.text("[data-output]") == before) == (typed[0] != "-")
 
 
 def test_a_percentage_is_seen_as_long_as_it_is_in_force(page: Page) -> None:
     page.open("calculate/particles.drag_coefficient_haider_levenspiel")
     field = page.type("#field-sphericity", "80%")
-    page.until(lambda: [e.text for e in page.all("[data-echo]")] == ["= 80 %"])
+    page.until(lambda: page.texts("[data-echo]") == ["= 80 %"])
     assert page.leave(field) == ("80", "%")
     page.type("#field-sphericity", "0.7")
-    page.until(lambda: [e.text for e in page.all("[data-echo]")] == ["= 0.7 %"])
+    page.until(lambda: page.texts("[data-echo]") == ["= 0.7 %"])
     menu = field.find_element(By.XPATH, "following-sibling::select")
     assert Select(menu).first_selected_option.text == "%"
     Select(menu).select_by_value("")
@@ -145,7 +141,7 @@ def test_a_unit_chosen_first_holds_for_the_number_that_follows(page: Page) -> No
     for key in "0.085":
         field.send_keys(key)
     assert page.leave(field) == ("0.085", "mm")
-    assert page.one("[data-output=terminal_velocity]").text.startswith("5.281 mm/s")
+    page.until(lambda: page.text("[data-output=terminal_velocity]").startswith("5.281 mm/s"))
 
 
 KELVINS = "charts/humid_gas.psychrometric_chart?temperature=290%20300%20K"  # not a table of states
@@ -181,7 +177,7 @@ def test_the_limit_of_an_optimum_has_its_unit(page: Page) -> None:
     assert page.leave(page.type("[data-limit=high] input", "4,5")) == ("4,5", "mm/s")
     page.button("Lancer l’étude").click()
     page.one("[data-study=optimize]")
-    assert "au plus 4,5 mm/s" in page.one("[data-question]").text
+    page.says("[data-question]", "au plus 4,5 mm/s")
     page.browser.refresh()  # set-up and outcome are still there
     page.one("[data-study=optimize]")
     assert page.one("[data-limit=high] input").get_attribute("value") == "4,5"
@@ -220,8 +216,8 @@ def test_conditions_of_an_example_never_meet_own_data(page: Page) -> None:
     page.settle()
     assert not page.all("[data-parameter]"), "the fit waits for its conditions"
     page.button("Try with example data").click()
-    assert page.one("[data-parameter=cake_resistance]").text
-    assert "leaf_geankoplis.csv" in page.one("[data-trial]").text
+    page.until(lambda: page.text("[data-parameter=cake_resistance]"))
+    page.says("[data-trial]", "leaf_geankoplis.csv")
     page.button("Français").click()
     page.one("[data-parameter=cake_resistance]")
     assert "338" in [e.get_attribute("value") for e in page.all(".field input")], (
@@ -239,7 +235,7 @@ def test_other_laws_follow_the_inputs(page: Page) -> None:
     ).click()
     before = page.until(lambda: page.all("[data-spread]:not(.stale)"))[0].text
     page.type(DIAMETER, "42.5")
-    page.until(lambda: page.all("[data-spread]:not(.stale)") and page.one("[data-spread]").text != before)
+    page.until(lambda: page.all("[data-spread]:not(.stale)") and page.text("[data-spread]") != before)
 
 
 def test_no_chart_offers_to_be_sent_away(page: Page) -> None:
@@ -259,7 +255,7 @@ def test_a_chart_is_read_and_saved_without_a_mouse(page: Page) -> None:
     paper = "return getComputedStyle(document.querySelector('.plot .main-svg')).background"
     assert "255, 255, 255" not in page.browser.execute_script(paper)
     assert "Agrandir une zone" in [b.get_attribute("data-title") for b in page.all(".modebar-btn")]
-    assert [b.text for b in page.all(".files button")] == ["SVG", "PNG", "CSV"]
+    assert page.texts(".files button") == ["SVG", "PNG", "CSV"]
     page.until(
         lambda: next(s for s in page.all("details summary") if s.text == "Valeurs du diagramme")
     ).click()
@@ -274,10 +270,10 @@ def test_a_server_that_is_gone_is_said_once_and_found_again(page: Page) -> None:
     offline = {"offline": True, "latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
     page.browser.execute_cdp_cmd("Network.emulateNetworkConditions", offline)
     page.type(DIAMETER, "42.5")
-    assert "reconnects" in page.one(".gone").text
+    page.says(".gone", "reconnects")
     page.browser.execute_cdp_cmd("Network.emulateNetworkConditions", offline | {"offline": False})
     page.until(
-        lambda: not page.all(".gone") and page.one("[data-output=terminal_velocity]").text.startswith("1.32")
+        lambda: not page.all(".gone") and page.text("[data-output=terminal_velocity]").startswith("1.32")
     )
     assert page.one(DIAMETER).get_attribute("value") == "42.5"
     page.browser.get_log("browser")
@@ -297,7 +293,7 @@ def test_choosing_another_unit_reads_the_same_number_in_it(page: Page) -> None:
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
     Select(page.one("#field-particle_diameter ~ select")).select_by_visible_text("mm")
     # a thousand times wider, a million times faster
-    page.until(lambda: page.one("[data-output=terminal_velocity]").text.startswith("5281 m/s"))
+    page.until(lambda: page.text("[data-output=terminal_velocity]").startswith("5281 m/s"))
 
 
 def test_values_survive_reloading_and_changing_the_language(page: Page) -> None:
@@ -307,7 +303,7 @@ def test_values_survive_reloading_and_changing_the_language(page: Page) -> None:
     page.button("Français").click()
     page.settle()
     assert page.one("#field-particle_diameter").get_attribute("value") == "60"
-    assert page.one("h1").text.startswith("Vitesse")
+    page.until(lambda: page.text("h1").startswith("Vitesse"))
     page.browser.refresh()
     page.settle()
     assert page.one("#field-particle_diameter").get_attribute("value") == "60"
@@ -321,7 +317,7 @@ def test_search_finds_and_the_keyboard_suffices(page: Page) -> None:
     link.send_keys(Keys.ENTER)
     page.until(lambda: "ergun" in page.browser.current_url)
     page.settle()
-    assert page.one("[data-output]").text
+    page.until(lambda: page.text("[data-output]"))
     page.check()
 
 
@@ -329,9 +325,9 @@ def test_three_cases_are_compared(page: Page) -> None:
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
     page.button("Keep to compare").click()
     page.write("#field-particle_diameter", "42.5")
-    page.until(lambda: page.one("[data-output=terminal_velocity]").text.startswith("1.32"))
+    page.until(lambda: page.text("[data-output=terminal_velocity]").startswith("1.32"))
     page.settle()
-    cells = [c.text for c in page.all("tbody strong")]
+    cells = page.texts("tbody strong")
     assert any(c.startswith("5.28") for c in cells)
     assert any(c.startswith("1.32") for c in cells)
     page.check()
@@ -395,7 +391,7 @@ def test_a_line_is_edited_by_forms_compared_undone_and_saved(page: Page) -> None
     page.open(f"lines/{quote(CASE, safe='')}")
     page.one(".findings")
     page.settle()
-    before = page.one("[data-figure='mill.residence_time']").text
+    before = page.text("[data-figure='mill.residence_time']")
     page.button("Keep to compare").click()
     page.browser.execute_script(
         "document.querySelector('[data-unit=mill]').dispatchEvent(new MouseEvent('click', {bubbles: true}))"
@@ -403,8 +399,8 @@ def test_a_line_is_edited_by_forms_compared_undone_and_saved(page: Page) -> None
     page.write("[data-panel=mill] input[id$=holdup_mass]", "2.4")
     page.one("table[data-comparison]")
     page.settle()
-    page.until(lambda: before in page.one("table[data-comparison]").text)
-    assert "2.4 tonne" in page.one("table[data-comparison]").text
+    page.until(lambda: before in page.text("table[data-comparison]"))
+    page.says("table[data-comparison]", "2.4 tonne")
     page.check()
     page.write("[aria-label='File name']", "mine/mill.toml")
     page.button("Save").click()
@@ -439,7 +435,7 @@ def test_a_study_runs_with_progress(page: Page, language: str, run: str) -> None
     page.settle()
     page.check()
     page.one("[data-kind=monte_carlo]").click()
-    assert page.one("[data-old]").text, "what stands there answers another question"
+    assert page.text("[data-old]"), "what stands there answers another question"
     assert page.all(".stale [data-study=sweep]")
     page.button(run).click()
     page.one("[data-study=monte_carlo]")
@@ -468,7 +464,7 @@ def test_what_the_server_is_doing_is_said_while_the_page_waits(page: Page) -> No
         page.browser.execute_script(HELD, path)
         start()
         assert page.until(lambda: [e.text for e in page.all("[data-note]") if e.text == "Drawing"])
-        assert " s" in page.one("[data-working]").text
+        page.says("[data-working]", " s")
         assert page.button("Cancel")
         page.browser.execute_script("window.release()")
         page.until(lambda: not page.all("[data-working]"))
@@ -491,7 +487,7 @@ def test_series_are_read_in_full_and_taken_along(page: Page) -> None:
     assert velocities == sorted(velocities)
     cells = [row.text.split()[0] for row in rows[:3]]
     assert [float(cell) for cell in cells] == pytest.approx(velocities[:3], rel=1e-3)
-    assert "…" not in page.one("section[aria-label=Believe]").text, "nothing is cut"
+    assert "…" not in page.text("section[aria-label=Believe]"), "nothing is cut"
     page.settle()
     page.check()
 
@@ -537,8 +533,8 @@ def test_the_answer_of_an_exercise_shows_on_request(page: Page) -> None:
     page.open("exercises/buchner-to-filter")
     assert not page.all("[data-answer]")
     page.button("Show the answer").click()
-    assert "0.38" in page.one("[data-printed]").text
-    assert page.one("[data-output=void_fraction]").text.replace(" ", "").endswith(("0.3811", "38.11%"))
+    page.says("[data-printed]", "0.38")
+    assert page.text("[data-output=void_fraction]").replace(" ", "").endswith(("0.3811", "38.11%"))
     page.settle()
     page.check()
 

@@ -12,7 +12,7 @@ from urllib.parse import quote
 import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
-from tests.app.browsing import Page
+from tests.app.browsing import Page, resize
 
 SPHERE = "particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"  # noqa: E501
 STOKES = f"calculate/particles.terminal_velocity_stokes?{SPHERE}"
@@ -66,14 +66,6 @@ CUT = """
     if (whole.scrollWidth > whole.clientWidth) seen.push('the page itself');
     return seen;
 """
-
-
-def resize(page: Page, width: int) -> None:
-    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
-    page.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    page.browser.execute_async_script(
-        "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(arguments[0], 60)))"
-    )
 
 
 @pytest.mark.parametrize("language", ["en", "fr"])
@@ -187,3 +179,25 @@ def test_paper_says_where_it_comes_from_and_shows_no_buttons(page: Page, languag
     resize(page, 1300)
     height = "return document.querySelector('.plot').clientHeight"
     page.until(lambda: page.browser.execute_script(height) > 300)  # afterwards the chart is there as before
+
+
+def test_a_line_on_paper_is_its_diagram_findings_and_streams_with_no_column_cut(page: Page) -> None:
+    page.open(f"lines/{quote('examples:potassium-nitrate/line.toml', safe='')}", "fr")
+    page.one(".findings")
+    page.settle()
+    seen = on_paper(
+        page,
+        """
+        const visible = (e) => e.getBoundingClientRect().height > 0;
+        const right = (name) => Math.max(0, ...[...document.querySelectorAll(name)]
+          .filter(visible).map((e) => e.getBoundingClientRect().right));
+        return {
+          ends: ['.diagram svg', '.streams', '.findings'].map(right),
+          folded: [...document.querySelectorAll('details:not([open])')].filter(visible).length,
+          fields: [...document.querySelectorAll('input, select, textarea')].filter(visible).length,
+        };
+        """,
+    )
+    assert all(0 < end <= 689 for end in seen["ends"]), seen
+    assert seen["folded"] == 0
+    assert seen["fields"] == 0

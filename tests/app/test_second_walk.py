@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import httpx
@@ -22,11 +23,13 @@ def test_each_example_stands_in_one_domain_or_among_the_lines_of_several(serve: 
     assert shipped["domains"]["dryers/drum.toml"] == "drying"
 
 
-def test_a_figure_left_out_takes_its_caption_along() -> None:
-    for name in ("handbook/porous", "fr/manuel/porous"):  # of figures that do not move
+def test_a_chapter_keeps_each_caption_below_its_figure() -> None:
+    for name in ("handbook/porous", "fr/manuel/porous"):
         shown = as_html(name)["html"]
         assert "[[" not in shown
-        assert "<p><em>" not in shown
+        captions = shown.count("<p><em>")
+        assert captions > 1
+        assert len(re.findall(r'data-(?:drawn|moving)="[^"]+"></div>\s*<p><em>', shown)) == captions
 
 
 def test_exercises_in_french_have_the_apostrophe_of_print() -> None:

@@ -64,12 +64,12 @@ def test_numbers_that_may_be_read_in_two_ways_are_not_guessed(
     page.open(place)
     field = page.type(selector, typed)
     if echo:
-        page.until(lambda: [e.text for e in page.all("[data-echo]")] == [echo])
+        page.until(lambda: page.texts("[data-echo]") == [echo])
         number, unit = page.leave(field)
         shown = f"{number} { ({'inch': 'in', 'um': 'µm'}.get(unit, unit)) }".replace("; ", " ").strip()
         assert shown == echo[2:].replace(" · ", " ")
     else:
-        page.until(lambda: page.one(".quantity .out").text)
+        page.until(lambda: page.text(".quantity .out"))
         page.until(lambda: not page.fresh())
         assert page.leave(field)[0] == typed
 
@@ -80,11 +80,11 @@ def test_a_fluid_in_words_stands_in_place_of_its_properties(page: Page) -> None:
     """
     page.open(STOKES)
     page.write("#field-fluid", "watr at 20 °C")
-    page.until(lambda: page.one("#field-fluid-note .out").text)
+    page.until(lambda: page.text("#field-fluid-note .out"))
     assert page.one("#field-fluid_density").get_attribute("value") == ""
     page.write("#field-fluid", "water at 20 °C")
     page.until(page.fresh)
-    assert "1.002 mPa·s (water at 20 °C, liquid)" in page.one("section[aria-label=Believe]").text
+    page.says("section[aria-label=Believe]", "1.002 mPa·s (water at 20 °C, liquid)")
 
 
 def test_a_result_of_other_inputs_is_not_kept_to_compare(page: Page) -> None:
@@ -101,16 +101,16 @@ def test_a_study_has_as_many_cases_as_were_typed(page: Page) -> None:
     for typed in ("ten", "1 2", ""):
         page.type("[data-part=steps]", typed)
         page.button("Run the study").click()
-        page.until(lambda: "must be a whole number" in page.one("[role=alert]").text)
-        assert "study." not in page.one("[role=alert]").text
+        page.until(lambda: "must be a whole number" in page.text("[role=alert]"))
+        assert "study." not in page.text("[role=alert]")
         assert not page.all("[data-study]")
     page.type("[data-part=steps]", "7")
     page.button("Run the study").click()
-    assert page.one("[data-study=sweep]").text.startswith("● 7 cases")
+    page.until(lambda: page.text("[data-study=sweep]").startswith("● 7 cases"))
     page.one("[data-kind=monte_carlo]").click()
     page.type("input.short", "1 200")
     page.button("Run the study").click()
-    assert "1200" in page.one("[data-study=monte_carlo]").text.replace("\u202f", "")
+    assert "1200" in page.text("[data-study=monte_carlo]").replace("\u202f", "")
 
 
 def test_quantities_of_a_law_have_units_too(page: Page) -> None:
@@ -121,7 +121,7 @@ def test_quantities_of_a_law_have_units_too(page: Page) -> None:
     assert page.leave(page.type(option, "0,7 1/min")) == ("0.7", "1/min")
     page.until(lambda: "0.7 1/min" in page.one("#case").get_attribute("value"))
     page.type(option, "12 kg")
-    page.until(lambda: page.one("[data-form=mill] [data-option] .out").text)
+    page.until(lambda: page.text("[data-form=mill] [data-option] .out"))
     page.until(lambda: page.all(".stale .diagram"))
 
 

@@ -58,7 +58,7 @@ def test_what_is_continuous_comes_before_what_only_contains_the_word(page: Page)
     page.button("Créer la ligne").click()
     page.one("[data-palette]")
     page.type("[aria-label='Chercher un appareil']", "cristallisoir continu")
-    titles = [e.text for e in page.all(".piece")]
+    titles = page.texts(".piece")
     found = [title for title in titles if title.startswith("Cristallisoir")]
     assert found[0].startswith("Cristallisoir continu")
 
@@ -109,10 +109,10 @@ def test_a_first_hour_in_french(page: Page, album: Album) -> None:
     page.one("[data-kind=monte_carlo]").click()
     page.button(RUN["fr"]).click()
     page.one("[data-study=monte_carlo]")
-    asked = page.one("[data-question] h2").text
+    asked = page.text("[data-question] h2")
     album.take("étude")
     closed_and_opened_again(page)
     page.one("[data-study=monte_carlo]")
-    assert page.one("[data-question] h2").text == asked
-    assert re.search(r"\d,\d", page.one("td.n").text), "a French number has its comma"
+    page.reads("[data-question] h2", asked)
+    assert re.search(r"\d,\d", page.text("td.n")), "a French number has its comma"
     album.take("étude-retrouvée")

@@ -12,7 +12,7 @@ from tests.sharing.commands import granum
 
 import granum as gr
 from granum.cases import read_text
-from granum.cases.alone import alone, case_text, tables
+from granum.cases.alone import alone, assumed, case_text, tables
 from granum.core.errors import GranumError
 from granum.core.index import entries
 
@@ -53,6 +53,16 @@ def test_shares_of_substances_that_are_gone_go_with_them() -> None:
     found = tables(DRUM, {"mixture.liquids": "water"})
     assert all("liquid" not in feed for port, feed in found["feeds"].items() if port == "feed")
     assert alone(DRUM, mixture={"liquids": "water"}).solve().audit["mass_closure"] < 1e-9
+
+
+def test_laws_of_substances_that_are_gone_go_with_them() -> None:
+    """The belt of the example dissolves its own salt; another solid does not ask for that salt."""
+    belt = "filtration.horizontal_belt_filter"
+    assert "wash_dissolution" in tables(belt)["units"]["horizontal_belt_filter"]
+    other = {"mixture.solids": "quartz"}
+    assert "wash_dissolution" not in tables(belt, other)["units"]["horizontal_belt_filter"]
+    said = other | {"wash_dissolution.crystal": "potassium nitrate"}
+    assert "wash_dissolution" in tables(belt, said)["units"]["horizontal_belt_filter"]
 
 
 def test_twice_the_area_is_half_the_load() -> None:
@@ -108,3 +118,26 @@ def test_the_command_solves_it() -> None:
     code, out, err = granum("calc", DRUM, "area=-1m2")
     assert code == 2
     assert "Traceback" not in err
+
+
+def test_another_law_takes_none_of_the_parameters_of_the_first():
+    named = {"growth": "spiral_growth", "growth.spiral_coefficient": "1e-4 m/s"}
+    said = tables("crystallization.msmpr", named)["units"]["msmpr"]["growth"]
+    assert said == {"law": "spiral_growth", "spiral_coefficient": "1e-4 m/s"}
+    whole = {"law": "spiral_growth", "spiral_coefficient": 1e-4, "spiral_supersaturation": 0.01}
+    assert tables("crystallization.msmpr", {"growth": whole})["units"]["msmpr"]["growth"] == whole
+    same = tables("crystallization.msmpr", {"growth": "power_law_growth", "growth.growth_order": 2.0})
+    assert same["units"]["msmpr"]["growth"]["growth_coefficient"] > 0.0
+
+
+def test_what_was_not_said_is_told() -> None:
+    told = assumed("crystallization.msmpr", {"volume": "5 m3", "growth.growth_order": "1.5"})
+    assert told["solubility.solute"] == "potassium nitrate" == told["mixture.solids"]
+    assert "growth.growth_coefficient" in told
+    assert not {"volume", "growth.growth_order"} & set(told)
+    assert not [
+        word for word in assumed("crystallization.msmpr", {"growth": "x"}) if word.startswith("growth")
+    ]
+    _status, shown, _said = granum("calc", "crystallization.msmpr", "volume=5m3")
+    assert "solubility.solute=potassium nitrate" in shown
+    assert ", volume=" not in shown

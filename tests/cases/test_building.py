@@ -72,7 +72,7 @@ def test_each_step_says_what_is_missing() -> None:
     assert set(outline(text).missing) == {"Filter has no feed yet.", "Slurry goes nowhere yet."}
     assert outline(b.connect(text, "slurry", "filter.feed")).missing == ()
     with language("fr"):
-        assert "Filter n’a pas encore d’alimentation." in outline(text).missing
+        assert "Filtre n’a pas encore d’alimentation." in outline(text).missing
 
 
 def test_names_are_of_the_language_and_free() -> None:
@@ -368,3 +368,12 @@ def test_a_line_of_another_size_gets_machines_of_that_size() -> None:
     large = tomllib.loads(b.add_unit(begun, "filtration.chamber_press"))["units"]["filter"]
     assert (small["area"], large["area"]) == ("10 m^2", "100 m^2")
     assert small["chamber_depth"] == large["chamber_depth"]
+
+
+def test_substances_that_the_case_describes_may_be_chosen() -> None:
+    text = b.new_line("Dryer", ["water"], ["quartz"], ["dry air", "water"])
+    text += '[solid.PVC]\ndensity = "1.4 g/cm3"\nheat_capacity = "0.9 kJ/(kg K)"\n'
+    after = b.choose_substances(text, ["water"], ["PVC"], ["dry air", "water"])
+    assert 'solids = ["PVC"]' in after
+    with pytest.raises(InputError, match="'PVG' is not known"):
+        b.choose_substances(text, ["water"], ["PVG"], ["dry air", "water"])

@@ -11,13 +11,27 @@ from tests.contracts.unit_search import Case, shares
 
 from granum.crystallization.equipment.antisolvent import AntisolventCrystallizer
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
+from granum.crystallization.equipment.precipitator import Precipitator
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
+from granum.crystallization.equipment.uptake import ImpurityUptake
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
+
+IMPURE = ("water", "potassium nitrate", "sodium chloride")
+
+
+def _impure(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with nitrate and salt; crystals in every second one, some with salt in them."""
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    crystals = 0.3 * x[3] * (x[4] > 0.5) * shares(x[5], x[6], classes)
+    none = jnp.zeros(classes)
+    solid = water * jnp.stack([crystals, none, none, 0.01 * x[7] * crystals])
+    liquid = water * jnp.stack([1.0, 0.1 + 0.4 * x[1], 0.1 * x[2]])
+    return {"feed": empty(mixture, 290.0 + 30.0 * x[6]).replace(solid=solid, liquid=liquid)}
 
 
 def _met(mixture: Mixture, x: Any) -> dict[str, Stream]:
@@ -40,6 +54,22 @@ def _met(mixture: Mixture, x: Any) -> dict[str, Stream]:
         liquid=water * x[4] * jnp.stack([0.2 * x[5], 0.02 * x[7], 1.0 - 0.2 * x[5]])
     )
     return {"feed": feed, "antisolvent": spirit}
+
+
+def _exchanging(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with barium chloride and some byproduct, barite in every second one; up to
+    twice as much water with sodium sulfate.
+    """
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    seed = 0.01 * x[3] * (x[3] > 0.5) * shares(x[4], x[5], classes)
+    barium = empty(mixture, 285.0 + 30.0 * x[2]).replace(
+        solid=water * seed[None],
+        liquid=water * jnp.stack([1.0, 1e-4 + 0.03 * x[1], 0.0, 0.01 * x[6]]),
+    )
+    sulfate = empty(mixture, 285.0 + 30.0 * x[5]).replace(
+        liquid=2.0 * x[7] * water * jnp.stack([1.0, 0.0, 1e-4 + 0.02 * x[2], 0.0])
+    )
+    return {"feed": barium, "reagent": sulfate}
 
 
 def _melt(mixture: Mixture, x: Any) -> dict[str, Stream]:
@@ -101,6 +131,32 @@ def mixed(classes: int) -> dict[str, Case]:
                 sweated_fraction=0.2 * u[4],
                 impurity_fraction_eutectic=0.3 + 0.6 * u[5],
                 pure_liquid="water",
+            ),
+        ),
+        "uptake": Case(
+            mixture_of(
+                ["water", "potassium nitrate", "sodium chloride"],
+                ["potassium nitrate", *(f"{x} in crystals" for x in IMPURE)],
+                [],
+                np.geomspace(1e-5, 4e-3, classes + 1),
+            ),
+            _impure,
+            lambda f, u: ImpurityUptake(u[0], inclusion_fraction=0.02 * u[1]),
+        ),
+        "exchange": Case(
+            mixture_of(
+                ["water", "barium chloride", "sodium sulfate", "sodium chloride"],
+                ["barium sulfate"],
+                [],
+                np.geomspace(1e-7, 4e-4, classes + 1),
+            ),
+            _exchanging,
+            lambda f, u: Precipitator(
+                285.0 + 30.0 * u[0],
+                (f["feed"].slurry_volume_flow + f["reagent"].slurry_volume_flow) * 10.0 ** (1.5 + 1.5 * u[1]),
+                PowerLawGrowth(10.0 ** (-15.0 + 2.0 * u[2]), 1.5 + u[3]),
+                PowerLawNucleation(10.0 ** (5.0 + 3.0 * u[4]), 1.5 + u[5]),
+                rotation_speed=10.0 + 20.0 * u[2],
             ),
         ),
         "salt pair": Case(

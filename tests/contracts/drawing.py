@@ -18,8 +18,35 @@ from granum.core.parameters import Parameter
 from granum.core.results import Result
 
 FORMULAS = {key: thing for key, thing in EVERYTHING.items() if isinstance(thing, Formula)}
-ELEMENTWISE = {
-    k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))
+NAMES = {"salt": "barium sulfate"}
+"""Of what a card asks by name; any other is a solute in water."""
+
+
+class Named:
+    """A formula whose required names are given, so that numbers alone are left to be drawn."""
+
+    def __init__(self, formula: Formula) -> None:
+        self.formula = formula
+        self.names = {
+            p.name: NAMES.get(p.name, "potassium nitrate")
+            for p in formula.card.parameters
+            if p.sort is str and p.required
+        }
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.formula, name)
+
+    def __call__(self, **inputs: Any) -> Any:
+        return self.formula(**self.names, **inputs)
+
+    def evaluate(self, **inputs: Any) -> Result:
+        return self.formula.evaluate(**self.names, **inputs)
+
+
+ELEMENTWISE: dict[str, Any] = {
+    k: Named(f) if any(p.sort is str and p.required for p in f.card.parameters) else f
+    for k, f in FORMULAS.items()
+    if not any(p.series for p in (*f.card.parameters, *f.card.outputs))
 }
 SETS = int(os.environ.get("GRANUM_RANDOM_SETS", "1000"))
 """Sets of random inputs a card; the long run gives 1000000."""

@@ -27,6 +27,7 @@ from granum.drying.equipment.silo import SiloDryer
 from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
+from granum.drying.equipment.vacuum_shelves import VacuumShelfDryer
 from granum.drying.equipment.web_ovens import ImpingementDryer, RadiantDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
 from granum.drying.gas_solid.kinetics import (
@@ -384,6 +385,16 @@ BY_BALANCE: dict[str, Callable[..., Setting]] = {
             critical_moisture=0.05 + 0.4 * f,
         ),
         POWDER,
+    ),
+    "vacuum shelves": _by_balance(
+        lambda d, a, b, c, e, f, g: VacuumShelfDryer(
+            330.0 + 60.0 * a,
+            between(b, 2e3, 1.5e4),
+            between(c, 0.01, 0.06),
+            300.0 + 700.0 * e,
+            f * d.moisture,
+            between(g, 0.1, 0.6),
+        )
     ),
     "paddle": _by_balance(
         lambda d, a, b, c, e, f, g: PaddleDryer(

@@ -1,4 +1,4 @@
-"""Membrane plants, flotation and belt press with ordinary waters, to be tried by the contracts."""
+"""Membrane plants, carbon beds, flotation and belt press with ordinary waters, for the contracts."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ import jax.numpy as jnp
 import numpy as np
 from tests.contracts.unit_search import Case, shares
 
+from granum.filtration.adsorption import FreundlichIsotherm
 from granum.filtration.equipment.belt_press import BeltPress
+from granum.filtration.equipment.carbon import GasCarbonBed, LiquidCarbonBed
 from granum.filtration.equipment.membranes import ReverseOsmosis, Ultrafiltration
 from granum.settling.equipment.flotation import DissolvedAirFlotation
 from granum.streams.from_materials import mixture_of
@@ -54,6 +56,18 @@ def _sludge(mixture: Mixture, x: Any) -> dict[str, Stream]:
     return {"feed": feed, "wash": empty(mixture, 285.0).replace(liquid=flow * x[6] * jnp.ones(1))}
 
 
+def _spent(phase: str) -> Any:
+    """0.1 to 30 kg/s of air or of water with 1 mg/kg to 1 % of acetone and a trace of dust."""
+
+    def made(mixture: Mixture, x: Any) -> dict[str, Stream]:
+        flow, share = 10.0 ** (-1.0 + 2.5 * x[0]), 10.0 ** (-6.0 + 4.0 * x[1])
+        sizes = 1e-6 * flow * shares(x[4], x[5], len(mixture.sizes))
+        parts = {phase: flow * jnp.stack([1.0 - share, share])}
+        return {"feed": empty(mixture, 280.0 + 40.0 * x[2]).replace(solid=sizes[None, :], **parts)}
+
+    return made
+
+
 def membranes(classes: int) -> dict[str, Case]:
     """One case of each, its area in proportion to its feed."""
     whey = mixture_of(["water", "sucrose"], ["whey protein"], [], np.geomspace(2e-9, 2e-8, classes + 1))
@@ -61,7 +75,34 @@ def membranes(classes: int) -> dict[str, Case]:
         ["water", "sodium chloride"], ["sodium chloride"], [], np.geomspace(1e-5, 1e-3, classes + 1)
     )
     flocs = mixture_of(["water"], ["kaolinite", "crude oil"], [], np.geomspace(1e-6, 1e-4, classes + 1))
+    solvent = mixture_of(
+        ["water", "acetone"], ["quartz"], ["nitrogen", "acetone"], np.geomspace(1e-6, 1e-4, classes + 1)
+    )
     return {
+        "gas carbon": Case(
+            solvent,
+            _spent("gas"),
+            lambda f, u: GasCarbonBed(
+                f["feed"].gas_volume_flow / (0.05 + 0.5 * u[0]),
+                0.2 + 2.0 * u[1],
+                1e-3 + 4e-3 * u[2],
+                FreundlichIsotherm(0.02 + 0.4 * u[3], 0.05 + 0.8 * u[4]),
+                10.0 ** (2.0 * u[5]),
+                adsorbate="acetone",
+            ),
+        ),
+        "liquid carbon": Case(
+            solvent,
+            _spent("liquid"),
+            lambda f, u: LiquidCarbonBed(
+                f["feed"].liquid_volume_flow / (5e-4 + 6e-3 * u[0]),
+                0.5 + 4.0 * u[1],
+                3e-4 + 2e-3 * u[2],
+                FreundlichIsotherm(0.001 + 0.1 * u[3], 0.1 + 0.8 * u[4]),
+                10.0 ** (-2.0 + 2.0 * u[5]),
+                adsorbate="acetone",
+            ),
+        ),
         "flotation": Case(
             flocs,
             _flocs,

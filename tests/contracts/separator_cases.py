@@ -13,8 +13,10 @@ from granum.centrifuges.equipment.liquids import DiscSeparator, NozzleSeparator,
 from granum.centrifuges.equipment.purifiers import DiscPurifier
 from granum.conveying.equipment.pneumatic import PneumaticConveyor
 from granum.conveying.equipment.slurry import SlurryPipeline
+from granum.conveying.equipment.thick_slurry import ThickSlurryPipeline
 from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
+from granum.dust.equipment.air_filter import AirFilter
 from granum.dust.equipment.bag_filter import BagFilter
 from granum.dust.equipment.hood import ExtractionHood
 from granum.dust.equipment.mesh_pad import MeshPad
@@ -58,7 +60,7 @@ DUST = Mixture(
     liquids=(),
     gases=(Species("air", (("air", 1.0),), (1.2,), (1005.0,), molar_mass=0.02896),),
     size_edges=tuple(np.geomspace(5e-7, 1e-3, CLASSES + 1)),
-    gas_viscosity=lambda T: 1.8e-5,
+    gas_viscosity=lambda _w, T: 1.8e-5,
 )
 
 
@@ -256,6 +258,12 @@ UNITS = {
         ),
     ),
     "gas cyclone": (dusty, lambda f, a, b, c: GasCyclone(jnp.sqrt(f.gas_volume_flow / (0.5 + 2.0 * a)))),
+    "air filter": (
+        dusty,
+        lambda f, a, b, c: AirFilter(
+            f.gas_volume_flow / (0.01 + 0.4 * a), 10.0 ** (-6.5 + 1.5 * b), 0.01 + 0.1 * c, 5e-4 + 5e-3 * a
+        ),
+    ),
     "bag filter": (
         dusty,
         lambda f, a, b, c: BagFilter(
@@ -292,6 +300,15 @@ UNITS = {
         blown,
         lambda f, a, b, c: PneumaticConveyor(
             jnp.sqrt(f["gas"].gas_volume_flow / (0.785 * (12.0 + 15.0 * a))), 40.0 * b, 10.0 * c, 4.0 * c
+        ),
+    ),
+    "thick slurry pipeline": (
+        slurry,
+        lambda f, a, b, c: ThickSlurryPipeline(
+            jnp.sqrt(f.slurry_volume_flow / (0.785 * (0.2 + 4.0 * a))),
+            500.0 * b,
+            10.0 ** (-2.0 + 2.0 * c),
+            yield_stress=50.0 * a * b,
         ),
     ),
     "slurry pipeline": (

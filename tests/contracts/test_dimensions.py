@@ -85,6 +85,8 @@ def evaluated(f: Formula, inputs: dict[str, Any]) -> list[np.ndarray]:
 
 
 def suitable(f: Formula) -> bool:
+    if any(p.required and p.kind is None for p in f.card.parameters):
+        return False  # a substance that is named brings numbers of its own, in their units
     if any(p.law or p.series for p in (*f.card.parameters, *f.card.outputs)) or not numbers(f):
         return False
     program = str(jax.make_jaxpr(lambda inputs: called(f, inputs))(numbers(f)))

@@ -170,6 +170,7 @@ ALL = WITH_CELLS | BY_BALANCE | HUMID_GAS
 QUICK = (
     "drum",
     "freeze on trays",
+    "vacuum shelves",
     "paper",
     "stenter",
     "infrared",

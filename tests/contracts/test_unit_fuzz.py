@@ -28,6 +28,7 @@ QUICK = (
     "screen ideal",
     "sized screen 3 wet",
     "drum",
+    "gravity",
     "decanter",
     "peeler",
     "heater",
@@ -41,7 +42,11 @@ QUICK = (
     "layers",
     "flotation",
     "belt press",
+    "gas carbon",
+    "liquid carbon",
     "salt pair",
+    "exchange",
+    "uptake",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

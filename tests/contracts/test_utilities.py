@@ -24,6 +24,7 @@ WITHOUT = {
     "comminution.double_deck_screen",
     "comminution.screen",
     "comminution.triple_deck_screen",
+    "crystallization.impurity_uptake",
     "dust.extraction_hood",
     "streams.adiabatic_humidifier",
     "streams.agglomerator",

@@ -10,7 +10,8 @@ import pytest
 from tests.contracts.test_french import said
 
 import granum
-from granum.core.i18n import catalog
+from granum.app.wording import page_words
+from granum.core.i18n import catalog, language
 
 STATIC = Path(granum.__file__).parent / "app" / "static"
 CALLED = re.compile(r"""\bt\(\s*('(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""")
@@ -93,3 +94,12 @@ def test_french_of_the_page_and_of_the_program_has_its_apostrophe() -> None:
     french = {**{m: catalog("fr").get(m, "") for m in said()}, **of_the_page()}
     wrong = [text for text in french.values() if re.search(r"[^\W\d_]'[^\W\d_]", text)]
     assert not wrong
+
+
+def test_a_page_names_the_unit_of_a_message_once_and_in_words() -> None:
+    """A machine alone bears the name of its model, which stands in the message anyway."""
+    said = "thickness ('thickness') = −3 mm is not possible for drying.{key}: it must be above 0 mm."
+    alone = page_words("[units.vacuum_shelf_dryer] " + said.format(key="vacuum_shelf_dryer"))
+    assert alone.startswith("Thickness = −3 mm is not possible for Vacuum shelf dryer")
+    with language("fr"):
+        assert page_words("[units.dryer_2] " + said.format(key="tray_dryer")).startswith("Séchoir 2 : ")

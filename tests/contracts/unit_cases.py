@@ -31,6 +31,7 @@ from granum.crystallization.equipment.batch import (
     VacuumBatchCrystallizer,
 )
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
+from granum.crystallization.equipment.oslo import OsloCrystallizer
 from granum.crystallization.formulas.agglomeration import ConstantKernel, SumKernel
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
@@ -51,6 +52,7 @@ from granum.filtration.equipment.continuous import (
     RotaryVacuumDrum,
 )
 from granum.filtration.equipment.deep_bed import DeepBedFilter
+from granum.filtration.equipment.gravity import GravityFilter
 from granum.particles.partition import (
     BypassedPartition,
     IdealPartition,
@@ -61,7 +63,8 @@ from granum.particles.partition import (
 )
 from granum.settling.compression import PowerStress
 from granum.settling.equipment.clarifier_thickener import ClarifierThickener
-from granum.settling.velocities import Vesilind
+from granum.settling.equipment.secondary_settler import SecondarySettler
+from granum.settling.velocities import Takacs, Vesilind
 from granum.streams.equipment.agglomerator import Agglomerator
 from granum.streams.equipment.basics import Heater, Mixer, Splitter, StirredTank
 from granum.streams.mixture import Mixture, Species
@@ -87,7 +90,7 @@ def slurries(classes: int, smallest: float, largest: float) -> Mixture:
         liquid_viscosity=lambda w, T: (
             1e-3 * jnp.exp(-0.02 * (T - 293.15)) * (1.0 + 1.5 * w[1] * w[0] + 0.2 * w[1])
         ),
-        gas_viscosity=lambda T: 1.8e-5 * (T / 293.15) ** 0.7,
+        gas_viscosity=lambda _w, T: 1.8e-5 * (T / 293.15) ** 0.7,
     )
 
 
@@ -315,6 +318,19 @@ def filters(classes: int) -> dict[str, Case]:
                 **batch(u),
             ),
         ),
+        "gravity": Case(
+            fine,
+            alone,
+            lambda f, u: GravityFilter(
+                f["feed"].slurry_volume_flow * 10.0 ** (2.0 + 3.0 * u[0]),
+                0.1 + 1.9 * u[1],
+                10.0 ** (8.0 + 4.0 * u[2]),
+                0.35 + 0.25 * u[3],
+                medium_resistance=10.0 ** (9.0 + 2.0 * u[4]),
+                deliquoring_time=1800.0 * u[5],
+                solids_recovery=0.9 + 0.1 * u[4],
+            ),
+        ),
         "deep bed": Case(
             bed,
             thin,
@@ -485,6 +501,17 @@ def basics(classes: int) -> dict[str, Case]:
                 cells=20,
             ),
         ),
+        "secondary-settler": Case(
+            fine,
+            lambda m, x: {"feed": slurry(m, x, (-4.0, -1.5))},
+            lambda f, u: SecondarySettler(
+                f["feed"].slurry_volume_flow / 10.0 ** (-5.0 + 2.0 * u[0]),
+                2.0 + 3.0 * u[1],
+                f["feed"].slurry_volume_flow * (0.02 + 0.6 * u[2]),
+                Takacs(10.0 ** (-4.0 + 1.5 * u[3]), 10.0 ** (-4.0 + 1.5 * u[3]), 0.005 + 0.5 * u[4], 3.0),
+                0.003 * u[5],
+            ),
+        ),
     }
 
 
@@ -560,6 +587,16 @@ def crystallizers(classes: int) -> dict[str, Case]:
                 fines_cut_size=5e-5 + 1.5e-4 * u[3],
                 product_removal_ratio=1.0 + 4.0 * u[4],
                 product_cut_size=3e-4 + 7e-4 * u[2],
+                evaporation=0.2 * u[1] * f["feed"].liquid[0],
+                **laws(u),
+            )
+        ),
+        "oslo": Cased(
+            lambda f, u: OsloCrystallizer(
+                vessel(f, u)[0],
+                1.0 + 4.0 * u[1],
+                0.2 + u[4],
+                0.005 + 0.04 * u[5],
                 evaporation=0.2 * u[1] * f["feed"].liquid[0],
                 **laws(u),
             )

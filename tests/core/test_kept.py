@@ -115,7 +115,7 @@ def test_every_file_and_setting_changes_the_name(tmp_path: Path, monkeypatch: py
         seen.append(now())
     monkeypatch.setenv("JAX_NUMPY_RANK_PROMOTION", "raise")
     seen.append(now())
-    monkeypatch.setattr(kept, "version", lambda name: "99" if name == "equinox" else "1")
+    monkeypatch.setattr("importlib.metadata.version", lambda name: "99" if name == "equinox" else "1")
     seen.append(now())
     assert len(set(seen)) == len(seen)
     (tmp_path / "package" / "page.js").write_text("2")
@@ -258,7 +258,7 @@ def test_what_somebody_wrote_is_not_kept(folder: Path) -> None:
 def test_formulas_are_named_by_their_card(folder: Path) -> None:
     ask(Counted(), named=(terminal_velocity, "bare"))
     assert len(leave(folder)) == 1
-    assert kept._reference(terminal_velocity) == ("card", "particles.terminal_velocity")
+    assert kept._reference(terminal_velocity) == (kept._card, ("particles.terminal_velocity",))
     assert kept._reference(copy(terminal_velocity)) is None
 
 

@@ -23,7 +23,8 @@ WHOLE = np.array([3, 0, 2, 2, -7, 9])
 ONE_BY_ONE: tuple[Callable[[Any], Any], ...] = (
     jnp.abs, jnp.sign, jnp.floor, jnp.ceil, jnp.round, jnp.sqrt, lax.rsqrt, jnp.cbrt, jnp.square, jnp.exp,
     jnp.exp2, jnp.expm1, jnp.log, jnp.log1p, jnp.sin, jnp.cos, jnp.tan, jnp.arcsin, jnp.arccos, jnp.arctan,
-    jnp.sinh, jnp.cosh, jnp.tanh, jnp.isfinite, jax.scipy.special.erf, jax.scipy.special.erfc,
+    jnp.sinh, jnp.cosh, jnp.tanh, jnp.arcsinh, jnp.arccosh, jnp.arctanh, jnp.isfinite,
+    jax.scipy.special.erf, jax.scipy.special.erfc,
     lambda x: jax.scipy.special.gammaln(abs(x)), lambda x: x**3, lambda x: x**-2, lambda x: x**0.7,
     lambda x: -x, lambda x: lax.convert_element_type(x, int), lambda x: jnp.arctan2(x, 0.5),
     lambda x: jnp.fmod(x, 0.7),
@@ -55,6 +56,9 @@ OF_ARRAYS: dict[str, Callable[[Any, Any], Any]] = {
     "windows": lambda x, v: (
         lax.dynamic_slice(v, (2,), (3,)), lax.dynamic_update_slice(v, jnp.ones(3), (-1,)),
         lax.dynamic_slice(x, (1, 9), (2, 2)),
+        jax.vmap(lambda i: lax.dynamic_slice(v, (i,), (2,)))(jnp.array([0, 1, 9, -5])),
+        jax.vmap(lambda i: lax.dynamic_slice(x, (1, i), (2, 3)))(jnp.array([[0, 2], [1, 5]]).ravel()),
+        jax.vmap(lambda i: lax.dynamic_slice(x, (i, 1), (1, 3))[0], out_axes=1)(jnp.array([0, 7])),
     ),
     "sorted": lambda x, v: (jnp.sort(v), jnp.argsort(x, 0), jnp.median(x), jnp.unique(v, size=4)),
     "interpolated": lambda x, v: (jnp.interp(x, jnp.sort(v), v), jnp.polyval(v, x)),

@@ -161,3 +161,10 @@ def test_years_given_as_seconds_and_percent_as_numbers_are_told() -> None:
     assert not costs.payback_time.evaluate(1e5, "25000 USD/year").notices
     with pytest.raises(InputError, match="7 %"):
         costs.annual_capital_charge(1e5, 7.0, "5 year")
+
+
+@pytest.mark.parametrize(("area", "falls"), [(15.0, True), (21.0, True), (22.0, False), (900.0, False)])
+def test_a_price_that_falls_with_size_is_told(area: float, falls: bool) -> None:
+    """Table A.1, floating head: the slope 2 × 0.3187 log A − 0.8509 is zero at 21.6 m²."""
+    result = costs.purchased_cost_exchanger.evaluate(area=area)
+    assert any("falls here" in notice["message"] for notice in result.notices) == falls

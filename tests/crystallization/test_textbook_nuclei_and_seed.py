@@ -99,9 +99,7 @@ def test_balance_by_the_name_of_the_solute():
     evaporates: 722 kg of decahydrate and 596 MJ without the vessel, with 8.9 kg per 100 kg of water and a
     heat of solution of 78.5 MJ/kmol. Geankoplis: 6370 kg of soda with 21.5 kg per 100 kg.
     """
-    salt = crystallizer_balance_library(
-        3000.0, 500 / 3000, 283.0, 333.0, 50.0, system="sodium sulfate decahydrate"
-    )
+    salt = crystallizer_balance_library(3000.0, 500 / 3000, 283.0, 333.0, "sodium sulfate decahydrate", 50.0)
     assert salt.crystal_flow == pytest.approx(722, rel=0.015)
     assert salt.heat_duty / 1e6 == pytest.approx(-(540 + 722 * 78.5 / 322 - 50 * 2.395), rel=0.03)
     assert salt.crystal_per_solute == pytest.approx(322.2 / 142.04, rel=1e-3)

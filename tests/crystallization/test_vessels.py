@@ -408,6 +408,7 @@ def test_precipitation_starts_at_the_activity_product_and_ends_at_its_equilibriu
         duration=36000.0,
         crystal_density=4500.0,
         molar_mass=0.2334,
+        salt="barium sulfate",
         **KINETICS,
         seed_mass_per_solvent=1e-2,
     )
@@ -431,6 +432,7 @@ def test_precipitation_is_second_order_and_conserves_both_ions():
         "duration": 1200.0,
         "crystal_density": 4500.0,
         "molar_mass": 0.2334,
+        "salt": "barium sulfate",
         **KINETICS,
     }
     coarse, fine, finest = (precipitation_batch(**common, steps=n) for n in (200, 400, 1600))

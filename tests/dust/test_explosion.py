@@ -163,3 +163,111 @@ def test_a_vent_without_data_or_that_opens_late_is_refused() -> None:
         BagFilter(200.0, explosion_vent=ExplosionVent(8.0, 4e4, 0.5)).operate(feed=dusty(sand))
     with pytest.raises(InputError, match=r"above the 0\.05 bar"):
         ExplosionVent(8.0, "0.05 bar", 0.5, activation_pressure="0.1 bar")
+
+
+def test_oxygen_permitted_lies_below_the_limit_and_less_where_nobody_watches() -> None:
+    """By hand after the standard: 9 % → 7 and 5.4 %; 4 % → 2.4 and 1.6 %."""
+    permitted = gr.dust.oxygen_permitted_nfpa69
+    for limit, watched, alone in ((0.09, 0.07, 0.054), (0.04, 0.024, 0.016)):
+        assert permitted(limit, True) == pytest.approx(watched)
+        assert permitted(limit) == pytest.approx(alone)
+    limits = np.linspace(0.001, 0.2, 50)
+    for watched in (True, False):
+        assert np.all(permitted(limits, watched) < limits)
+        assert np.all(permitted(limits, watched) > 0.0)
+    assert np.all(permitted(limits, True) >= permitted(limits, False))
+
+
+def test_ignition_energies_against_a_testing_house() -> None:
+    """Its page (explosiontesting.co.uk, read) gives 10 to 30 mJ of sugar; of flour, coal and aluminum more
+    than the table, whose samples are finer: the table errs on the safe side.
+    """
+    from granum.streams.dusts import dusts
+
+    known = dusts()
+    assert 0.010 <= known["sugar"].ignition_energy <= 0.030
+    for name, least in (("wheat starch", 0.3), ("bituminous coal", 1.0), ("aluminum", 0.1)):
+        assert known[name].ignition_energy < least
+    tested = [d for d in known.values() if np.isfinite(d.ignition_energy)]
+    assert len(tested) >= 20
+    assert all(1e-3 <= d.ignition_energy <= 1.0 for d in tested)
+    for d in known.values():
+        assert np.isnan(d.limiting_oxygen) or 0.02 < d.limiting_oxygen < 0.16
+
+
+def test_the_oxygen_of_coal_is_no_more_than_measured() -> None:
+    """Mittal 2013, abstract read: pulverized coals of 27 and 20 % of volatiles explode down to 7 and 8 %."""
+    from granum.streams.dusts import dust
+
+    assert dust("bituminous coal").limiting_oxygen <= 0.07
+
+
+def test_what_static_electricity_asks_for_grows_with_sensitivity() -> None:
+    from granum.dust.dusts import INSENSITIVE, NOT_TESTED, PRECAUTIONS, dust_explosibility, precautions
+
+    said = [precautions(energy) for energy in (5e-4, 5e-3, 0.02, 0.05, 0.3, 2.0)]
+    assert said == [*(text for _most, text in PRECAUTIONS), INSENSITIVE]
+    whey = dust_explosibility("whey")
+    assert whey.static_precautions == NOT_TESTED
+    assert np.isnan(whey.limiting_oxygen)
+
+
+def test_nitrogen_with_too_much_air_does_not_inert() -> None:
+    """Starch burns with 9 % of oxygen (the table): nitrogen with a quarter of air, 5.2 %, lies below six
+    tenths of that, with half of air not, however little dust there is; air itself is nobody's inert gas.
+    """
+    from granum.streams.atmosphere import explosible, inerted
+    from granum.streams.from_materials import mixture_of
+    from granum.streams.stream import empty
+
+    mixed = mixture_of(["water"], ["starch"], ["dry air", "nitrogen", "water"], [1e-6, 1e-5, 1e-4])
+    assert inerted(mixed)
+
+    def seen(air: float, dust: float) -> dict[str, Any]:
+        gas = np.array([28.96 * air, 28.01 * (1.0 - air), 0.0])
+        stream = empty(mixed, 300.0).replace(gas=gas, solid=np.full((1, 2), dust))
+        return {name: float(value) for name, value in explosible(stream).items()}
+
+    safe, unsafe = seen(0.25, 10.0), seen(0.5, 1e-6)
+    assert safe["starved"] == pytest.approx(0.25 * 0.2095 / 0.09, rel=1e-3)
+    assert safe["explosible"] == 0.0
+    assert unsafe["starved"] == pytest.approx(2.0 * safe["starved"], rel=1e-3)
+    assert 0.0 < unsafe["explosible"] < 1e-3
+    assert seen(0.5, 0.0)["starved"] == 0.0
+    plain = mixture_of(["water"], ["starch"], ["dry air", "water"], [1e-6, 1e-5, 1e-4])
+    air = empty(plain, 300.0).replace(gas=np.array([1.0, 0.0]), solid=np.full((1, 2), 1.0))
+    assert set(explosible(air)) == {"explosible"}
+
+
+def test_dryers_say_what_vent_their_dust_asks_for() -> None:
+    """The same area by the same standard, whether or not the exhaust carries fines."""
+    from tests.dust.test_fines import KINETICS, MADE, air, solid
+
+    from granum.drying.equipment.atomizers import GivenDrops
+    from granum.drying.equipment.flash import FlashDryer
+    from granum.drying.equipment.fluid_bed import FluidBedDryer
+    from granum.drying.equipment.silo import SiloDryer
+    from granum.drying.equipment.spray import SprayDryer
+    from granum.dust.vents import ExplosionVent
+
+    check = "vent area that the dust asks for over the vent area of the vessel"
+    vent = ExplosionVent(40.0, "0.4 bar", 2.0)
+    hand = (
+        3.264e-5 * 9.9 * 115.0 * 0.4**-0.569 * 40.0**0.753 / 2.0
+    )  # starch of the library, over what is there
+    made: list[Any] = [
+        (
+            SprayDryer(6.0, 3.0, GivenDrops(1e-4), KINETICS, explosion_vent=vent),
+            solid(flow=0.01, moisture=1.0),
+        ),
+        (FluidBedDryer(1.0, 100.0, KINETICS, explosion_vent=vent), solid(flow=0.05)),
+        (SiloDryer(10.0, 0.5, 700.0, KINETICS, explosion_vent=vent), solid(flow=0.5)),
+        (FlashDryer(15.0, 0.4, KINETICS, explosion_vent=vent), solid(flow=0.05)),
+    ]
+    for dryer, feed in made:
+        checks = {c.name: c for c in dryer.operate(feed=feed, gas=air(2.0)).checks}
+        assert float(checks[check].value) == pytest.approx(hand, rel=1e-9), type(dryer).__name__
+        assert checks[check].ok == (hand < 1.0)
+    bare = type(made[0][0])(6.0, 3.0, GivenDrops(1e-4), KINETICS)
+    assert check not in {c.name for c in bare.operate(feed=made[0][1], gas=air(2.0)).checks}
+    assert MADE.solids[0].name == "starch"

@@ -13,6 +13,7 @@ import pytest
 from tests.sharing.samples import SAMPLES
 
 from granum.core.errors import GranumError, InputError
+from granum.drying.lab_tests.isotherm import IsothermTest
 from granum.estimation import read_table
 from granum.estimation.tables import as_csv
 from granum.filtration.lab_tests.leaf_test import LeafTest
@@ -133,3 +134,30 @@ def test_what_was_read_as_another_number_is_refused(text: str, words: str) -> No
 def test_decimal_commas_with_three_digits_are_decimals_where_the_column_shows_it() -> None:
     found = read_table(io.StringIO("time [s];filtrate_volume [L]\n1,125;2\n2,25;3\n"), COLUMNS)
     np.testing.assert_allclose(found["time"], [1.125, 2.25])
+
+
+@pytest.mark.parametrize("separator", [";", "\t", ","])
+@pytest.mark.parametrize(
+    "titles", [["Leaf test"], ['"Leaf test, lot 12"', "Tuesday"], ["Leaf test{}{}", "", "Lot 7{}{}"]]
+)
+def test_titles_above_the_header_are_no_header(titles: list[str], separator: str) -> None:
+    lines = [
+        *(title.replace("{}", separator) for title in titles),
+        "time [s];filtrate_volume [L]",
+        "4;0.5",
+        "9;1",
+    ]
+    text = "\n".join(
+        [*lines[: len(titles)], *(line.replace(";", separator) for line in lines[len(titles) :])]
+    )
+    found = read_table(io.StringIO(text), COLUMNS)
+    assert found["time"].tolist() == [4.0, 9.0]
+    assert found["filtrate_volume"] == pytest.approx([5e-4, 1e-3])
+
+
+def test_one_column_without_a_unit_keeps_its_name() -> None:
+    (column,) = (p for p in IsothermTest.card.parameters if p.name == "water_activity")
+    assert read_table(io.StringIO("water_activity\n0.1\n0.3\n"), [column])["water_activity"].tolist() == [
+        0.1,
+        0.3,
+    ]

@@ -13,6 +13,7 @@ from granum.core import lab_test
 from granum.core.errors import InputError, UnitError
 from granum.core.kinds import Area, Series, Time, Velocity, Volume
 from granum.estimation import Fit, LabTest
+from granum.estimation.tables import as_csv, sheets_of
 
 
 @lab_test("emptying", source="none", title="Emptying")
@@ -113,3 +114,18 @@ def test_messages_on_files_and_columns(tmp_path):
         Emptying(time=[1, 2, 3], filtrate_volume=[1, 2, 3, 4], area=1)
     with pytest.raises(InputError, match="must increase"):
         Emptying(time=[1, 3, 2], filtrate_volume=[1, 2, 3], area=1).fit()
+
+
+def test_a_sheet_of_a_workbook_is_read_by_its_name():
+    book = openpyxl.Workbook()
+    book.active.title = "Notes"
+    book.active.append(["measured on Monday"])
+    data = book.create_sheet("Test 1")
+    data.append(["time [s]", "filtrate volume [L]"])
+    data.append([10, 0.5])
+    held = io.BytesIO()
+    book.save(held)
+    assert sheets_of(held.getvalue()) == ["Notes", "Test 1"]
+    assert as_csv(io.BytesIO(held.getvalue()), "Test 1") == "time [s],filtrate volume [L]\n10,0.5\n"
+    assert as_csv(io.BytesIO(held.getvalue())) == "measured on Monday\n"
+    assert sheets_of(b"time,volume\n1,2\n") == []

@@ -100,6 +100,33 @@ def test_start_up_of_a_crystallizer() -> None:
     assert np.abs(product[::30].sum(axis=1) - expected).max() < 3e-3 * expected[-1]
 
 
+def test_an_empty_thickener_fills_in_optimized_code_too() -> None:
+    """In cells that are empty yet all flows are rounding, which the compiler does otherwise."""
+    sludge = Species("sludge", (("sludge", 1.0),), (1400.0,), (1900.0,), 0.0, 0.1)
+    mixture = Mixture(
+        (sludge,), (WATER,), (), tuple(np.geomspace(1e-6, 1e-3, 7)), liquid_viscosity=lambda _w, _T: 1e-3
+    )
+    solid = jnp.asarray(0.6 * np.arange(1.0, 7.0) / 21.0)[None]
+    feed = empty(mixture, 290.0).replace(solid=solid, liquid=jnp.array([200.0]))
+    thickener = ClarifierThickener(500.0, 4.0, 0.08, Vesilind("7 m/hour", 0.4), cells=12)
+    links = {
+        "f": ("", "b"),
+        "raw": ("b.underflow", "t"),
+        "clear": ("b.overflow", ""),
+        "over": ("t.overflow", ""),
+        "thick": ("t.underflow", ""),
+    }
+    line = Flowsheet({"b": CircularClarifier(25.0, 3.0, 4.0), "t": thickener}, {"f": feed}, links)
+    times = np.linspace(0.0, 1200.0, 5)
+    course = jax.jit(lambda times: march(line, times, start={"b": "empty"}))(times)
+    for stream in course.streams.values():
+        assert np.all(np.isfinite(stream.solid))
+    thick, over = (flows(course.streams[name], "solid_flow") for name in ("thick", "over"))
+    assert np.all(thick >= 0.0)
+    assert thick[-1] > 0.0
+    assert np.all(over >= -1e-12)
+
+
 def test_clarifier_and_thickener() -> None:
     """Salt and heat of the mixed basin by hand; a sludge whose sizes travel with it; every component and the
     heat close.

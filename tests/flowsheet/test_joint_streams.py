@@ -64,6 +64,7 @@ SLURRY = {
         "settling_time": "1 day",
         "cells": 10,
     },
+    "settling.secondary_settler": {"area": 20.0, "height": 3.0, "underflow_volume_flow": 3e-4},
     "settling.grit_chamber": {"length": 5.0, "width": 1.0, "height": 1.0},
     "settling.lamella": {
         "plate_number": 10,
@@ -101,6 +102,13 @@ WASHED = {
     "filtration.candle_filter": FILTER | {"area": 20.0, "full_cake_thickness": 0.02, "candle_radius": 0.03},
     "filtration.chamber_press": FILTER | {"area": 20.0, "chamber_depth": 0.03},
     "filtration.horizontal_belt_filter": FILTER | {"area": 2.0, "belt_length": 4.0, "belt_speed": 0.05},
+    "filtration.gravity_filter": {
+        "area": 20.0,
+        "slurry_depth": 0.5,
+        "cake_resistance": 1e9,
+        "void_fraction": 0.45,
+        "medium_resistance": 1e9,
+    },
     "filtration.membrane_press": FILTER
     | {"area": 20.0, "chamber_depth": 0.03, "void_fraction_squeezed": 0.4},
     "filtration.nutsche": FILTER | {"area": 20.0, "full_cake_thickness": 0.2},
@@ -218,6 +226,8 @@ LIQUOR = {
         "seed_mass_per_solvent": 0.01,
     },
     "crystallization.msmpr": GROWTH | {"temperature": "30 degC", "volume": 2.0},
+    "crystallization.oslo_crystallizer": GROWTH
+    | {"temperature": "30 degC", "area": 2.0, "height": 1.0, "superficial_velocity": "30 mm/s"},
     "crystallization.plug_flow_crystallizer": GROWTH
     | {"temperature_program": COOLING, "volume": 2.0, "seed_mass_per_solvent": 0.01},
     "crystallization.vacuum_batch_crystallizer": GROWTH
@@ -283,10 +293,14 @@ EVAPORATORS = {
 # of inlets or solutes that these feeds do not have; the random settings of the contracts balance them
 ELSEWHERE = {
     "crystallization.antisolvent_crystallizer",
+    "crystallization.impurity_uptake",  # needs species in crystals: test_uptake
+    "crystallization.precipitator",
     "crystallization.two_salt_crystallizer",
     "drying.burner",  # needs a fuel among the gases: test_dryer_closed
     "dust.extraction_hood",
     "dust.packed_scrubber",
+    "filtration.gas_carbon_bed",  # needs a vapor or an impurity: test_carbon_bed
+    "filtration.liquid_carbon_bed",
     "dust.spray_tower",
 }
 AS_ALONE = (  # with the values with which they open by themselves
@@ -296,6 +310,8 @@ AS_ALONE = (  # with the values with which they open by themselves
     "centrifuges.three_phase_decanter",
     "centrifuges.tubular_separator",
     "conveying.slurry_pipeline",
+    "conveying.thick_slurry_pipeline",
+    "dust.air_filter",
     "dust.bag_filter",
     "dust.electrostatic_precipitator",
     "dust.settling_chamber",
@@ -310,6 +326,7 @@ AS_ALONE = (  # with the values with which they open by themselves
     "settling.dissolved_air_flotation",
     "drying.radiant_dryer",
     "drying.tray_freeze_dryer",
+    "drying.vacuum_shelf_dryer",
     "settling.flocculator",
     "streams.fan",
     "streams.pump",
@@ -358,6 +375,8 @@ SPECIAL = {
     "conveying.pneumatic_conveyor": {"feed": "cake", "gas": "wet air"},
     "streams.pump": {"feed": "slurry"},
     "conveying.slurry_pipeline": {"feed": "slurry"},
+    "conveying.thick_slurry_pipeline": {"feed": "slurry"},
+    "dust.air_filter": {"feed": "dusty air"},
     "dust.bag_filter": {"feed": "dusty air"},
     "dust.electrostatic_precipitator": {"feed": "dusty air"},
     "dust.settling_chamber": {"feed": "dusty air"},
@@ -370,6 +389,7 @@ SPECIAL = {
     "drying.spray_dryer": {"feed": "slurry", "gas": "air"},
     "drying.freeze_dryer": {"feed": "slurry"},
     "drying.tray_freeze_dryer": {"feed": "slurry"},
+    "drying.vacuum_shelf_dryer": {"feed": "cake"},
     "drying.drum_dryer": {"feed": "slurry"},
 }
 

@@ -171,3 +171,49 @@ def test_energy_per_mass_is_told_as_heat_and_as_electricity_are(starch) -> None:
     assert told
     for heat, electricity in told:
         assert float(heat.split()[0]) == pytest.approx(3.6 * float(electricity.split()[0]), rel=2e-3)
+
+
+JUICE = """
+title = "Juice"
+[mixture]
+liquids = ["water", "sucrose"]
+gases = ["water"]
+sizes = { smallest = "10 um", largest = "4 mm", classes = 3 }
+[feeds.juice]
+to = "evaporator.feed"
+temperature = "60 degC"
+liquid_flow = "12.5 t/h"
+liquid = { water = "90 %", sucrose = "10 %" }
+[units.evaporator]
+model = "evaporation.evaporator"
+area = "60 m2"
+pressure = "0.2 bar"
+pressure_steam = "2 bar"
+heat_transfer_coefficient = "1700 W/(m2*K)"
+[streams]
+vapor = ["evaporator.vapor"]
+syrup = ["evaporator.product"]
+"""
+
+
+def test_without_solids_the_product_is_what_holds_the_dissolved() -> None:
+    line = read_text(JUICE).solve()
+    flows = {name: float(line.streams[name].mass_flow) for name in ("syrup", "vapor")}
+    assert flows["syrup"] < flows["vapor"]
+    assert line.product == "syrup"
+    each = line.utilities.energy_per_product
+    taken = line.utilities
+    assert each * flows["syrup"] == pytest.approx(
+        taken.heat_input + taken.electric_power + taken.refrigeration_power
+    )
+
+
+def test_cold_costs_the_electricity_of_a_machine_with_half_of_carnots_coefficient() -> None:
+    """By hand: deep cold is made at 223.15 K and given off at 308.15 K; the energy of the line counts it."""
+    line = gr.read(EXAMPLES / "freeze-dried-food" / "line.toml").solve()
+    taken = line.utilities
+    made = taken.cooling_input * 2.0 * (308.15 - 223.15) / 223.15
+    assert taken.refrigeration_power == pytest.approx(made, rel=1e-4)
+    whole = taken.electric_power + taken.heat_input + taken.refrigeration_power
+    assert taken.energy_per_water * taken.evaporation_rate == pytest.approx(whole, rel=1e-12)
+    assert taken.refrigeration_power > 0.5 * taken.heat_input

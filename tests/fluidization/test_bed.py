@@ -17,7 +17,7 @@ MIXTURE = Mixture(
     liquids=(),
     gases=(Species("air", (("air", 1.0),), (1.2,), (1005.0,), molar_mass=0.02896),),
     size_edges=EDGES,
-    gas_viscosity=lambda T: 1.8e-5,
+    gas_viscosity=lambda _w, T: 1.8e-5,
 )
 
 

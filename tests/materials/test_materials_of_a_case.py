@@ -10,6 +10,7 @@ import pytest
 
 import granum
 from granum import materials
+from granum.cases import alone, read_text
 from granum.core.errors import InputError
 from granum.materials.library import SHIPPED
 
@@ -76,4 +77,61 @@ def test_the_name_of_a_shipped_material_is_taken(tmp_path: Path) -> None:
     path = tmp_path / "own.toml"
     path.write_text('[solid.quartz]\ndensity = { value = 1.0, source = "own" }\n', encoding="utf-8")
     with pytest.raises(InputError, match="already the name"):
-        SHIPPED.with_files([path])
+        SHIPPED.with_own([path])
+
+
+DESCRIBED = """
+[solid.zeolite]
+density = "1500 kg/m3"
+heat_capacity = "0.9 kJ/(kg K)"
+molar_mass = "100 g/mol"
+[fluid.brine]
+molar_mass = 0.02
+liquid_density = "1 g/cm3"
+liquid_heat_capacity = 3500
+liquid_viscosity = "1 cP"
+"""
+
+
+def test_a_case_describes_its_own_materials() -> None:
+    """Without a second file, as text with units or numbers in SI."""
+    text = CASE.replace('materials = ["own.toml"]\n', "") + DESCRIBED
+    line = read_text(text)
+    judged(line, LIGHT)
+    assert float(line.sheet.feeds["slurry"].mixture.solids[0].molar_mass) == pytest.approx(0.1)
+    assert "zeolite" not in materials.names("solid")
+
+
+def test_words_describe_the_material_of_a_machine() -> None:
+    own = {
+        "mixture.solids": "PVC",
+        "solid.PVC.density": "1.4 g/cm3",
+        "solid.PVC.heat_capacity": "0.9 kJ/(kg K)",
+    }
+    line = alone("drying.rotary_dryer", **own)
+    (solid,) = line.sheet.feeds["feed"].mixture.solids
+    assert (solid.name, float(solid.density[0])) == ("PVC", pytest.approx(1400.0))
+    assert line.solve().audit["mass_closure"] < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (('"1500 kg/m3"', '"1.5"'), "zeolite: density = 1.5 kg/m³ is outside 10 kg/m³"),
+        (('"1500 kg/m3"', '"dense"'), "write a constant as a number with its unit"),
+        (('"1500 kg/m3"', '"1500 bar"'), "Unit 'bar' does not fit zeolite: density"),
+        (
+            ("density =", "densty ="),
+            "Key 'densty' is not known in [solid.zeolite] (case). Did you mean 'density'",
+        ),
+        (('heat_capacity = "0.9 kJ/(kg K)"', ""), "no value for zeolite: heat capacity"),
+        (("[solid.zeolite]", "[solid.quartz]"), "'quartz' is already the name of a solid"),
+        (("[solid.zeolite]", "[solid.zeolith]"), "Did you mean 'zeolith'"),
+        (("[solid.zeolite]", "[solid.PVC]"), 'by `[solid.zeolite]` with `density = "1400 kg/m3"`'),
+    ],
+)
+def test_what_is_wrong_with_a_described_material_is_told(change: tuple[str, str], message: str) -> None:
+    text = CASE.replace('materials = ["own.toml"]\n', "") + DESCRIBED.replace(*change, 1)
+    with pytest.raises(InputError) as told:
+        read_text(text)
+    assert message in told.value.message

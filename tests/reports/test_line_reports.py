@@ -13,6 +13,8 @@ from tests.sharing.places import EXAMPLES
 from granum.cases import read
 from granum.core.i18n import language
 from granum.reports.html import line_report, note_steps
+from granum.reports.streams import stream_sheet
+from granum.streams.names import pretty
 
 LINES = ("grinding-circuit/circuit.toml", "humid-air/line.toml", "filters/drum.toml")
 
@@ -25,9 +27,9 @@ def run(request: pytest.FixtureRequest) -> Any:
 def test_a_report_holds_everything_and_opens_anywhere(run: Any) -> None:
     page = line_report(run)
     for unit in run.sheet.order:
-        assert unit in page
+        assert f">{pretty(unit)}<" in page
     for name in run.streams:
-        assert f">{name}<" in page
+        assert f">{pretty(name)}<" in page
     steps = [step for name in run.sheet.order for step in note_steps(run.notes[name])]
     places = [
         page.index(f"<h2>{head}")
@@ -41,6 +43,9 @@ def test_a_report_holds_everything_and_opens_anywhere(run: Any) -> None:
     )
     assert not outside
     assert "@page" in page
+    # letters of equations: elsewhere a root would stand over the numerator alone
+    assert 'math { font-family: "STIX Two Math"' in page
+    assert 'src: local("STIX Two Math"), url(data:font/woff2;base64,' in page
     assert all(step["source"] for step in steps), [s["key"] for s in steps if not s["source"]]
 
 
@@ -57,3 +62,14 @@ def test_a_report_in_french(run: Any) -> None:
     assert '<html lang="fr">' in page
     for english in ("Findings", "Calculation note", "Flow diagram"):
         assert f"<h2>{english}" not in page
+
+
+def test_sizes_of_molecules_and_of_crystals_stand_each_in_its_own_unit() -> None:
+    with language("fr"):
+        sheet = stream_sheet(read(EXAMPLES / "whey" / "line.toml").solve())
+    heads = [head.label for head in sheet["heads"]]
+    sizes = {name: cells[heads.index("d₅₀")] for name, cells in sheet["rows"]}
+    assert sheet["heads"][heads.index("d₅₀")].unit == ""
+    assert sizes["whey"].endswith(" nm")
+    assert sizes["lactose"].endswith(" µm")
+    assert "w sucre de lait" in heads  # the name that the file of the case gives

@@ -6,11 +6,14 @@ import json
 import re
 from math import log
 from pathlib import Path
+from statistics import NormalDist
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
+import granum as gr
 from granum.app.wording import told
 from granum.core.charts import add_line, figure
 from granum.core.errors import InputError
@@ -114,6 +117,21 @@ def test_a_recycle_forgets_by_the_share_that_returns(returned: float) -> None:
     plain, learning = moving_figure("recycle").at({"returned_fraction": returned})["data"]
     assert np.allclose(plain["y"][:10], returned ** np.array(plain["x"][:10]), rtol=1e-3)
     assert sum(y is not None and y > 1e-10 for y in learning["y"]) < sum(y > 1e-10 for y in plain["y"] if y)
+
+
+def test_spreading_is_that_of_draws_and_of_the_slope() -> None:
+    """A fifth of 85 µm: draws of another generator, and a difference quotient in place of the derivative."""
+
+    def fall(size: Any) -> Any:
+        return np.asarray(gr.particles.terminal_velocity(size, 2630.0, 1020.0, 1.2e-3))
+
+    *_lines, points = moving_figure("spreading").at({"standard_deviation": 17.0, "time": 10.0})["data"]
+    spread = np.sqrt(np.log(1 + 0.2**2))
+    draws = np.random.default_rng(1).lognormal(np.log(85e-6) - spread**2 / 2, spread, 200_000)
+    assert points["y"][0] == pytest.approx(100 * np.mean(fall(draws) < 1.5 / 600), abs=0.15)
+    slope = (fall(86e-6) - fall(84e-6)) / 2e-6
+    below = NormalDist(float(fall(85e-6)), float(slope) * 17e-6).cdf(1.5 / 600)
+    assert points["y"][1] == pytest.approx(100 * below, rel=2e-3)
 
 
 @pytest.mark.parametrize("inlet", [50.0, 120.0])

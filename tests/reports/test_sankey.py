@@ -11,11 +11,11 @@ import pytest
 from tests.sharing.places import EXAMPLES
 
 import granum as gr
-from granum.cases.outline import pretty
 from granum.core.errors import InputError
 from granum.core.i18n import language
 from granum.reports.html import line_report
 from granum.reports.sankey import diagrams, flows, sankey, subjects
+from granum.streams.names import pretty
 
 LINES = ("spray-drying", "grinding-circuit/circuit.toml", "potassium-nitrate")
 
@@ -94,10 +94,10 @@ def test_figure_has_all_flows(spray) -> None:
 
 
 def test_units_and_streams_are_named_as_the_page_names_them(spray) -> None:
-    (mass, *_others) = diagrams(spray, str.upper)
-    labels = [name for part in ("node", "link") for name in mass["figure"]["data"][0][part]["label"]]
-    assert labels
-    assert all(name == name.upper() for name in labels)
     with language("fr"):
+        (mass, *_others) = diagrams(spray)
+        labels = {name for part in ("node", "link") for name in mass["figure"]["data"][0][part]["label"]}
+        assert labels >= {pretty(unit) for unit in spray.sheet.order}
+        assert {"air chaud", "cheminée"} <= labels
         assert pretty("cyclones.gas_inlet").startswith("cyclones · ")
-        assert pretty("dryer.vapor") == "dryer · vapeur"
+        assert pretty("dryer.vapor") == "séchoir · vapeur"

@@ -396,6 +396,12 @@ def data(key: str) -> Data:
             {"pressure_drop": 1e5, "dynamic_viscosity": 1e-3, "void_fraction": 0.45, "cake_thickness": 0.02},
             "cake_saturation",
         ),
+        "adsorption_test": lambda: Data(
+            {"concentration": t[1:] / 1e5, "adsorbate_loading": 0.03 * (t[1:] / 100.0) ** 0.4},
+            {"isotherm_form": "freundlich"},
+            "adsorbate_loading",
+            0.01,
+        ),
         "blocking_test": lambda: Data(
             {"time": t[1:], "filtrate_volume": 2e-7 * 600.0 * np.log1p(t[1:] / 600.0)},
             {"blocking_law": "intermediate"},
@@ -460,6 +466,14 @@ def data(key: str) -> Data:
             },
             {"preshear_normal": 5e3, "preshear_shear": 3.9e3},
             "stress_shear",
+        ),
+        "flow_curve_test": lambda: Data(
+            {
+                "shear_rate": np.geomspace(20.0, 600.0, 9),
+                "shear_stress": 8.0 + 0.02 * np.geomspace(20.0, 600.0, 9),
+            },
+            {},
+            "shear_stress",
         ),
         "flow_function": lambda: Data(
             {

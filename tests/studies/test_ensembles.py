@@ -252,7 +252,7 @@ def test_files(tmp_path) -> None:
         assert np.array_equal(data["terminal_velocity"], found.column("terminal_velocity"))
     found.save(tmp_path / "a.csv")
     assert list(pd.read_csv(tmp_path / "a.csv"))[1:3] == ["particle_diameter [m]", "terminal_velocity [m/s]"]
-    with pytest.raises(GranumError, match=r"\.nc, \.parquet or \.csv"):
+    with pytest.raises(GranumError, match=r"\.nc, \.parquet, \.csv or \.xlsx"):
         found.save(tmp_path / "a.dat")
     with pytest.raises(GranumError, match="no folder"):
         found.save(tmp_path / "none" / "a.nc")

@@ -17,7 +17,7 @@ from granum.streams.units import Unit
 from granum.studies.lines import LineSubject
 from granum.studies.study import Study
 
-FORMS, MIXED = 6, 16  # the quick solver settles some settings of this line and not others
+FORMS, MIXED = 6, 3  # the quick solver settles some settings of this line and not others
 WATER = Mixture(
     (),
     tuple(Species(f"form {i}", (("water", 1.0),), (1000.0,), (4000.0,)) for i in range(FORMS)),

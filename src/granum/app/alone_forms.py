@@ -10,13 +10,15 @@ from typing import Any
 from granum.app.case_forms import FEED_KINDS, case_value
 from granum.app.forms import card_form, fields_of
 from granum.cases.alone import PHASES, case_text, tables
-from granum.cases.outline import port_label
+from granum.cases.sizing import duty
 from granum.core import registry
+from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.sources import cite
 from granum.materials.library import session
+from granum.streams.names import port_label
 
 LABELS = {"solid_flow": "solid flow", "liquid_flow": "liquid flow", "gas_flow": "gas flow"}
 AIRS = {"cooling": "cooling air", "outdoor": "outdoor air", "exhaust": "exhaust air"}
@@ -51,14 +53,24 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
         "doc": form["doc"],
         "citation": cite(thing.card.source),
         "parameters": form["parameters"],
+        "outputs": form["outputs"],
         "groups": [*groups, {"name": "mixture", "title": _("Substances"), "parameters": rows}],
         "without": spare,
         "ports": {port: port_label(port) for port in (*(thing.inlet_names() or ()), *thing.outlet_names())},
         "values": values,
         "case": case_text(key, given),
+        **_sized(key),
         "command": " ".join(["granum calc", key, *(shlex.quote(f"{n}={v}") for n, v in given.items())]),
         "python": _python(key, given, {p.name for p in thing.card.parameters}),
     }
+
+
+def _sized(key: str) -> dict[str, Any]:
+    """By what it is sized, or why it has no size."""
+    try:
+        return {"duty": duty(key)._asdict(), "no_size": ""}
+    except ApplicabilityError as reason:
+        return {"duty": None, "no_size": reason.message}
 
 
 def _port(port: str) -> str:

@@ -8,6 +8,8 @@ from typing import Any
 
 from granum.app.forms import typed
 from granum.app.spread import curves
+from granum.cases.reading import read_text
+from granum.cases.sizing import doubts, sought
 from granum.core.conversion import Binder
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -31,7 +33,7 @@ from granum.reports.sensitivity import (
 from granum.studies.intervals import intervals, split
 from granum.studies.inverse import find_input
 
-LONG = 0.5  # seconds of one calculation, beyond which it is not repeated for a chart
+LONG = 0.5  # seconds of the processor for one calculation, beyond which it is not repeated for a chart
 THIN = {"color": "#8a94a3", "width": 0.8}
 
 
@@ -44,9 +46,9 @@ def described_curve(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     from granum.app.tasks import inputs_for
 
     given = split(thing.card, inputs_for(thing.card, _mapping(asked.get("inputs"))))[0]
-    start = time.perf_counter()
+    start = time.thread_time()
     result = thing.evaluate(**given)
-    repeatable = takes_arrays(thing) or time.perf_counter() - start < LONG
+    repeatable = takes_arrays(thing) or time.thread_time() - start < LONG
     found = repeatable and curve(thing, result, str(asked.get("against", "")), str(asked.get("output", "")))
     if not found:
         return {"figure": None, "inputs": [], "outputs": []}
@@ -94,16 +96,22 @@ def solved_input(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     inputs = _mapping(asked.get("inputs"))
     name, output = str(asked.get("find", "")), str(asked.get("output", ""))
     before = inputs.get(name)
-    given = split(thing.card, inputs_for(thing.card, {n: v for n, v in inputs.items() if n != name}))[0]
-    found = find_input(thing, name, **given, **{output: asked.get("wanted", "")})
-    p = found.parameter
-    unit = _typed_unit(before, p) or p.display_unit(found.value)
+    wanted = {output: asked.get("wanted", "")}
+    if thing.card.sort == "equipment":
+        case = sought(thing.card.key, inputs | wanted, name)
+        run = read_text(case.text, name=thing.card.key).solve()
+        p, value, against = thing.card.parameter(name), run.found[case.path], doubts(run)
+    else:
+        given = split(thing.card, inputs_for(thing.card, {n: v for n, v in inputs.items() if n != name}))[0]
+        p, value, _result = find_input(thing, name, **given, **wanted)
+        against = ""
+    unit = _typed_unit(before, p) or p.display_unit(value)
     assert p.kind is not None  # what is found is a quantity
-    number = typed(float(from_si(found.value, unit, p.kind)), 9)
+    number = typed(float(from_si(value, unit, p.kind)), 9)
     return {
         "name": name,
         "text": number if unit == "dimensionless" else f"{number} {unit}",
-        "shown": f"{p.label} = {value_text(found.value, p)}",
+        "shown": f"{p.label} = {value_text(value, p)}" + (f". {against}" if against else ""),
     }
 
 

@@ -9,7 +9,8 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
-from granum.cases import building
+from granum.app.own_substances import asked_of_substances
+from granum.cases import building, describing
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, current_language
 from granum.core.index import entries
@@ -17,11 +18,15 @@ from granum.core.words import plain
 from granum.flowsheet.symbols import symbol_of
 from granum.materials.library import session
 
-OPERATIONS: dict[str, Callable[..., str]] = {name: getattr(building, name) for name in building.__all__}
+OPERATIONS: dict[str, Callable[..., str]] = {
+    **{name: getattr(building, name) for name in building.__all__},
+    "describe_substance": describing.describe_substance,
+    "forget_substance": describing.forget_substance,
+}
 
 
 def built(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
-    """The text of a case after an operation of ``granum.cases.building``."""
+    """The text of a case after an operation of ``granum.cases.building`` or ``describing``."""
     if operation not in OPERATIONS:
         raise unknown_name(_("Operation"), operation, OPERATIONS)
     function = OPERATIONS[operation]
@@ -68,13 +73,15 @@ def _palette(_language: str) -> list[dict[str, str]]:
     ]
 
 
-def substances() -> dict[str, list[dict[str, Any]]]:
-    """What a line can be made of, by the part it plays, in the current language."""
+def substances() -> dict[str, Any]:
+    """What a line can be made of, by the part it plays, and what is asked of a substance of one's own, in the
+    current language.
+    """
     return _substances(current_language())
 
 
 @cache
-def _substances(language: str) -> dict[str, list[dict[str, Any]]]:
+def _substances(language: str) -> dict[str, Any]:
     known = session()
 
     def labelled(name: str, entry: Any) -> dict[str, Any]:
@@ -105,4 +112,5 @@ def _substances(language: str) -> dict[str, list[dict[str, Any]]]:
             ]
         ),
         "gases": ordered([labelled(n, e) for n, e in fluids.items()]),
+        "own": asked_of_substances(),
     }

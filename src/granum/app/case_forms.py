@@ -9,11 +9,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from granum.app.forms import card_form, entry, laws_with_parameters, options
+from granum.app.forms import card_form, laws_with_parameters, options
+from granum.app.own_substances import form_row, own_substances
 from granum.cases.building import completed, share_of_feed
-from granum.cases.outline import Outline, outline, port_label, pretty, table_of
+from granum.cases.outline import Outline, outline, table_of
+from granum.cases.reading import knowing_own, parsed, read_text
 from granum.cases.starting import listed
 from granum.core import registry
+from granum.core.documents import table_in
 from granum.core.errors import CaseError, GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -24,7 +27,9 @@ from granum.flowsheet.stream_figures import FIGURES, PHASES, worth_telling
 from granum.flowsheet.utilities import price_parameter
 from granum.materials.library import session
 from granum.reports.utilities import carrier_label
+from granum.streams.names import port_label, pretty
 
+PARTS = ("liquids", "solids", "gases")
 FEED_KINDS = {
     "mass_flow": "MassFlow",
     "solids_mass_fraction": "MassFraction",
@@ -39,11 +44,20 @@ FEED_KINDS = {
 
 def read_line(payload: Mapping[str, Any]) -> Any:
     """The line of ``{"case", "folder", "root"}``; files it names must lie inside the root."""
-    from granum.cases.reading import parsed, read_text
-
     text = str(payload.get("case", ""))
-    folder, root = payload.get("folder"), payload.get("root")
-    for named in _files_in(parsed(text, "case")):
+    outside = _outside(parsed(text, "case"), payload)
+    if outside is not None:
+        raise CaseError(
+            _("The case names the file '{path}', which is not in the workspace.").format(path=outside)
+        )
+    folder = payload.get("folder")
+    return read_text(text, folder=Path(str(folder)) if folder else None)
+
+
+def _outside(raw: Mapping[str, Any], place: Mapping[str, Any]) -> str | None:
+    """The first file that a case names and that does not lie inside the ``root`` of its ``folder``."""
+    folder, root = place.get("folder"), place.get("root")
+    for named in _files_in(raw):
         try:
             inside = bool(root) and (Path(str(folder)) / named).resolve().is_relative_to(
                 Path(str(root)).resolve()
@@ -51,10 +65,8 @@ def read_line(payload: Mapping[str, Any]) -> Any:
         except (OSError, ValueError):
             inside = False
         if not inside:
-            raise CaseError(
-                _("The case names the file '{path}', which is not in the workspace.").format(path=named)
-            )
-    return read_text(text, folder=Path(str(folder)) if folder else None)
+            return named
+    return None
 
 
 def _files_in(raw: Mapping[str, Any]) -> list[str]:
@@ -72,11 +84,19 @@ def _files_in(raw: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def line_form(case: str, across: int = ACROSS) -> dict[str, Any]:
+def line_form(case: str, across: int = ACROSS, place: Mapping[str, str] | None = None) -> dict[str, Any]:
     """A case as forms: feeds, units and what connects them, substances, specifications, what is missing, and
-    the diagram of the line as far as it stands.
+    the diagram of the line as far as it stands; ``place`` holds the ``folder`` of the files that it names and
+    the ``root`` that they must lie inside.
     """
     found = outline(case)
+    folder = str((place or {}).get("folder", ""))
+    within = bool(folder) and _outside(found.raw, place or {}) is None
+    with knowing_own(found.raw, Path(folder) if within else None):
+        return _form_of(found, across)
+
+
+def _form_of(found: Outline, across: int) -> dict[str, Any]:
     raw = found.raw
     units, feeds, specs = (table_of(raw, name) for name in ("units", "feeds", "specifications"))
     mixture = table_of(raw, "mixture")
@@ -92,7 +112,9 @@ def line_form(case: str, across: int = ACROSS) -> dict[str, Any]:
             for name, table in feeds.items()
             if isinstance(table, dict)
         },
-        "substances": {phase: listed(mixture, phase) for phase in ("liquids", "solids", "gases")},
+        "substances": {phase: listed(mixture, phase) for phase in PARTS},
+        "own": own_substances(raw),
+        "labels": {name: session().label(name) for phase in PARTS for name in listed(mixture, phase)},
         "specifications": {
             name: {word: str(table.get(word, "")) for word in ("vary", "so_that", "equals", "lower", "upper")}
             for name, table in specs.items()
@@ -101,6 +123,9 @@ def line_form(case: str, across: int = ACROSS) -> dict[str, Any]:
         "stream_figures": _stream_figures(mixture),
         "prices": _prices(found),
         "ends": _ends(found),
+        "names": {
+            name: pretty(name) for name in (*found.order, *found.feeds, *(k.name for k in found.links))
+        },
         "missing": list(found.missing),
         "diagram": draw(found, None, across, [Loose(*port) for port in found.open_inlets], growing=True),
     }
@@ -244,7 +269,7 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
     for name, kind in FEED_KINDS.items():
         if name in offered:
             default = {"temperature": 298.15, "pressure": 101325.0}.get(name)
-            rows.append(_row(Parameter(name, KINDS[kind], default=default)))
+            rows.append(form_row(Parameter(name, KINDS[kind], default=default)))
     rests = []
     for phase, species in (("liquid", "liquids"), ("solid", "solids"), ("gas", "gases")):
         names, shares = listed(mixture, species), table.get(phase)
@@ -252,7 +277,7 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         if len(names) < 2 or not flows or ("relative_humidity" in table and phase == "gas"):
             continue
         for one in names[1:]:
-            row = _row(Parameter(f"{phase}.{one}", KINDS["MassFraction"], default=None))
+            row = form_row(Parameter(f"{phase}.{one}", KINDS["MassFraction"], default=None))
             rows.append(row | {"label": share_label(phase, one)})
             if isinstance(shares, dict) and one in shares:
                 values[f"{phase}.{one}"] = case_value(shares[one])
@@ -265,7 +290,7 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         )
     if listed(mixture, "solids") and ("solid_flow" in table or totals or "sizes" in table):
         sizes = Parameter("sizes", law="size_distribution")
-        row = _row(sizes) | {
+        row = form_row(sizes) | {
             "label": _("particle sizes"),
             "options": options(sizes),
             "laws": laws_with_parameters(sizes),
@@ -274,19 +299,6 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         if "sizes" in table:
             values["sizes"] = case_value(table["sizes"])
     return {"parameters": rows, "values": values, "form": "totals" if totals else "phases", "rests": rests}
-
-
-def _row(p: Parameter) -> dict[str, Any]:
-    """A parameter of a feed as a form holds it."""
-    return p.as_json() | {
-        "required": p.required or p.default is None,
-        "allowed": "",
-        "source_range": "",
-        "options": [],
-        "symbol_shown": "",
-        "example": None,
-        "default_shown": None if p.required or p.default is None else entry(p, p.default),
-    }
 
 
 def case_value(value: Any) -> str:
@@ -335,12 +347,8 @@ def _typed(text: str, before: Any) -> Any:
     import tomlkit
 
     if text.lstrip().startswith("{"):
-        try:
-            table = json.loads(text)
-        except (ValueError, RecursionError):
-            raise InputError(_("'{name}' is not valid JSON.").format(name=text[:40])) from None
         made = tomlkit.inline_table()
-        made.update(table)
+        made.update(table_in(text, "law"))
         return made
     if isinstance(before, bool) and text in ("yes", "no"):
         return text == "yes"

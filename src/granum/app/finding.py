@@ -10,13 +10,22 @@ from functools import cache
 from granum.app import exercises
 from granum.app.reading import page
 from granum.app.shipped import description_of, examples, pages, title_of
-from granum.core.i18n import LANGUAGES, current_language, language
+from granum.core.datasets import dataset
+from granum.core.i18n import LANGUAGES, _, current_language, language
 from granum.core.index import entries
 from granum.core.search import DOMAIN, GIVES, NAME, TEXT, TITLE, Document, Finder, card_documents, document
+from granum.core.words import tokens
 
 SHOWN = 40  # hits
 BEHIND = 0.9  # what is not a card itself
 FOREIGN = 0.75  # a page in the other language
+LISTS = {  # tables shown by a card, with the column that names a row
+    "drying.applications": ("drying", "applications_houdon2017", "product"),
+    "drying.foods": ("drying", "foods_beuchat1981", "food"),
+    "drying.food_moistures": ("drying", "food_moistures_makhlouf2020", "food"),
+    "dust.dust_explosibility": ("streams", "dusts_nfpa68", "name"),
+    "humid_gas.air_composition": ("humid_gas", "air_usstandard1976", "gas"),
+}
 TAUGHT = 1.05  # of several laws for one thing, one that is learnt
 
 
@@ -72,10 +81,26 @@ def _taught() -> set[str]:
     return {key for key in asked if families[entries()[key].family] > 1}
 
 
+def _listed(card: Document) -> Document:
+    """A card that shows a table is found by the names of its rows too, in every language."""
+    if card.key not in LISTS:
+        return card
+    domain, name, column = LISTS[card.key]
+    said = dict(card.phrases)
+    for code in LANGUAGES:
+        with language(code):
+            for row in dataset(domain, name):
+                said.setdefault(tokens(_(row[column])), GIVES)
+    return replace(card, phrases=said)
+
+
 @cache
 def _finder(code: str) -> Finder:
     taught = _taught()
-    cards = (replace(one, worth=one.worth * TAUGHT) if one.key in taught else one for one in card_documents())
+    cards = (
+        replace(one, worth=one.worth * TAUGHT) if one.key in taught else _listed(one)
+        for one in card_documents()
+    )
     return Finder([*cards, *_lines(), *_exercises(), *_pages(code)])
 
 

@@ -212,7 +212,7 @@ class Crew:
                     return future.result()
                 if request is not None and await request.is_disconnected():
                     job.cancelled.set()
-                    raise Busy(_("The calculation was cancelled."))
+                    raise Busy(_("The calculation was canceled."))
         finally:
             if name and self._asked_about.get(name) is job:
                 del self._asked_about[name]
@@ -301,7 +301,7 @@ class Crew:
 
     def _worked(self, job: Job, key: str) -> bytes:
         if not job.wanted:
-            raise Busy(_("The calculation was cancelled."))
+            raise Busy(_("The calculation was canceled."))
         process = self._take(key)
         try:
             return self._watch(job, process, key)
@@ -337,7 +337,7 @@ class Crew:
                 process.send(None)
             if left is not None and now - left > GRACE:
                 process.stop()
-                raise GivenUp(_("The calculation was cancelled."))
+                raise GivenUp(_("The calculation was canceled."))
             if now - started > job.longest:
                 process.stop()
                 raise GivenUp(
@@ -359,7 +359,7 @@ def _outcome(sort: str, *rest: Any) -> bytes:
     if sort == "refused":
         raise Refused(*rest)
     if sort == "cancelled":
-        raise GivenUp(_("The calculation was cancelled."))
+        raise GivenUp(_("The calculation was canceled."))
     raise Broken(rest[0])
 
 

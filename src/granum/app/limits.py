@@ -82,7 +82,7 @@ class Workers:
                 )
             if request is not None and await request.is_disconnected():
                 job.cancel()
-                raise Busy(_("The calculation was cancelled."))
+                raise Busy(_("The calculation was canceled."))
 
     def _left(self) -> None:
         self._now -= 1

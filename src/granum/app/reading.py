@@ -10,7 +10,7 @@ from urllib.parse import quote
 
 from markdown_it import MarkdownIt
 
-from granum.app.shipped import pages
+from granum.app.shipped import chapter_code, pages
 from granum.core.errors import unknown_name
 from granum.core.i18n import _, language
 from granum.core.index import entries
@@ -18,10 +18,14 @@ from granum.reports.stated import in_french_print, with_equations, with_numbers
 
 _HEADING = re.compile(r"^#+\s+(.+)$", re.MULTILINE)
 _FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
-# plots and tables that the site makes, a plot with its caption
+# figures that the app draws, and plots and tables that only the site makes
 _MOVING = re.compile(r"^\[\[moving (\w+)\]\]$", re.MULTILINE)
-_MADE = re.compile(r"^\[\[(?:figure[^\]\n]*\]\]\s*\n\*[^*\n]+\*|\w+[^\]\n]*\]\])\s*$", re.MULTILINE)
+_FIGURE = re.compile(r"^\[\[figure (\w+)\]\]$", re.MULTILINE)
+_CODE = re.compile(r"^\[\[code (\w+)\]\]$", re.MULTILINE)
+_MADE = re.compile(r"^\[\[\w+[^\]\n]*\]\]\s*$", re.MULTILINE)
 _CARD = re.compile(r"\[\[card (\S+)\]\]")
+# the name of the file that a fenced part shows or changes
+_TITLED = re.compile(r'^```(\w+) title="([^"]+)"$', re.MULTILINE)
 _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 
 
@@ -67,10 +71,14 @@ def _link_to(name: str, label: str, target: str) -> str:
     return f"[{label}](#/read/{quote(found, safe='')})" if found in pages() else label
 
 
+def _as_code(text: str) -> str:
+    return f'<pre><code class="language-python">{html.escape(text)}\n</code></pre>'
+
+
 def as_html(name: str) -> dict[str, Any]:
-    """A page for reading: ``{"title", "language", "html"}``."""
+    """A page for reading: ``{"title", "language", "whole", "html"}``, whole where the site has no more."""
     found = page(name)
-    known = entries()
+    known, domain = entries(), name.rpartition("/")[2]
 
     def of_card(match: re.Match[str]) -> str:
         card = known.get(match[1])
@@ -84,7 +92,12 @@ def as_html(name: str) -> dict[str, Any]:
         return f"\ue000{len(made) - 1}\ue001"
 
     text = _MOVING.sub("\ue002\\1\ue003", found.text)
-    text = _MADE.sub("", _CARD.sub(of_card, text))
+    if name.startswith(CHAPTERS):
+        text = _CODE.sub("\ue005\\1\ue003", text)
+        text = _FIGURE.sub("\ue004\\1\ue003", text)
+    text = _CARD.sub(of_card, text)
+    whole = not _MADE.search(text)
+    text = _TITLED.sub(r"**`\2`**\n\n```\1", _MADE.sub("", text))
     text = _TO_CARD.sub(lambda m: f"](#/find/{quote(m[1], safe='')})", text)
     if name.startswith(CHAPTERS):
         text = with_equations(text, aside)
@@ -92,9 +105,14 @@ def as_html(name: str) -> dict[str, Any]:
     shown = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
     shown = re.sub("\ue000(\\d+)\ue001", lambda m: made[int(m[1])], shown)
     shown = re.sub("<p>\ue002(\\w+)\ue003</p>", r'<div data-moving="\1"></div>', shown)
+    shown = re.sub(
+        "<p>\ue004(\\w+)\ue003</p>", rf'<div data-drawn="{found.language}/{domain}/\1"></div>', shown
+    )
+    shown = re.sub("<p>\ue005(\\w+)\ue003</p>", lambda m: _as_code(chapter_code(domain, m[1])), shown)
     shown = shown.replace("<table>", '<div class="wide" tabindex="0" role="region"><table>')
     return {
         "title": html.unescape(found.title),
         "language": found.language,
+        "whole": whole,
         "html": shown.replace("</table>", "</table></div>"),
     }

@@ -9,7 +9,7 @@ import tomllib
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import Body, FastAPI, File, Form, Request, UploadFile
 from fastapi.exceptions import RequestValidationError
@@ -194,6 +194,12 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """A figure of the handbook where its sliders stand: ``{"values"}``, each in its slider's unit."""
         return _json(await crew().run("figure", asked | {"name": name}, name, request))
 
+    @app.get("/api/chapters/{code}/{domain}/{name}")
+    async def chapter_figure(request: Request, code: Literal["en", "fr"], domain: str, name: str) -> Response:
+        """A figure of a chapter of the handbook in the language of the chapter: Plotly JSON."""
+        asked = {"domain": domain, "name": name, "code": code}
+        return _json(await crew().run("chapter_figure", asked, f"chapter {domain}", request))
+
     @app.post("/api/solve/{key}")
     async def solve(request: Request, key: str, asked: Inputs) -> Response:
         """The input for which a result is the wanted one: ``{"inputs", "find", "output", "wanted"}``."""
@@ -274,14 +280,15 @@ def _long_work(app: FastAPI, workspace: Path | None) -> None:
         )
 
     @app.post("/api/table")
-    async def table(request: Request, file: Annotated[UploadFile, File()]) -> Response:
-        """An uploaded table (CSV or Excel) as comma-separated text."""
-        content = await file.read(LARGEST_BODY + 1)
-        return _json(
-            await crew().run(
-                "table", {"content": content, "name": Path(file.filename or "data.csv").name}, "", request
-            )
-        )
+    async def table(
+        request: Request, file: Annotated[UploadFile, File()], sheet: Annotated[str, Form()] = ""
+    ) -> Response:
+        """An uploaded table (CSV or Excel) as comma-separated text, of a workbook the first sheet or the one
+        that is named, with the names of all.
+        """
+        name = Path(file.filename or "data.csv").name
+        payload = {"content": await file.read(LARGEST_BODY + 1), "name": name, "sheet": sheet}
+        return _json(await crew().run("table", payload, "", request))
 
     @app.post("/api/run")
     async def run(request: Request, case: Case, place: Place = "") -> Response:
@@ -354,10 +361,14 @@ def _case_forms(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
 
     @app.post("/api/case/form")
     async def form(
-        request: Request, case: Case, across: Annotated[int, Body(embed=True, ge=1, le=40)] = 5
+        request: Request,
+        case: Case,
+        across: Annotated[int, Body(embed=True, ge=1, le=40)] = 5,
+        place: Place = "",
     ) -> Response:
         """A case file as forms, with what it still needs and its diagram, ``across`` units side by side."""
-        return Answer(await quick.run(lambda: line_form(case, across), request))
+        files = _folder(workspace, place)
+        return Answer(await quick.run(lambda: line_form(case, across, files), request))
 
     @app.post("/api/case/build")
     async def build(

@@ -54,6 +54,19 @@ def description_of(name: str) -> str:
 
 
 @cache
+def chapter_calculations() -> dict[str, Path]:
+    """The calculations of the handbook by the domain of their chapter."""
+    return {place.stem: place for place in sorted((_folder("docs") / "handbook").glob("*.py"))}
+
+
+def chapter_code(domain: str, name: str) -> str:
+    """The part of the calculations of a chapter between ``# ---- NAME`` and the next such line."""
+    parts = chapter_calculations()[domain].read_text(encoding="utf-8").split("# ---- ")
+    found = next(part for part in parts[1:] if part.startswith(f"{name}\n"))
+    return found.split("\n", 1)[1].strip()
+
+
+@cache
 def pages() -> dict[str, Path]:
     """Guides, theory, handbook and errata by name, as ``guides/first-hour``."""
     root = _folder("docs")

@@ -19,10 +19,10 @@ from granum.app.spread import spread
 from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
-from granum.cases.outline import pretty
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.conversion import Binder
+from granum.core.documents import table_in
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
 from granum.core.units import format_number, pretty_unit
@@ -87,11 +87,8 @@ def given_values(inputs: dict[str, Any]) -> dict[str, Any]:
 
 
 def _law(name: str, text: str) -> Any:
-    """A law with its parameters, written as JSON in a form or a link."""
-    try:
-        return json.loads(text)
-    except (ValueError, RecursionError):
-        raise InputError(_("'{name}' is not valid JSON.").format(name=name), name=name) from None
+    """A law with its parameters, written in a form or a link."""
+    return table_in(text, name)
 
 
 def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
@@ -157,9 +154,20 @@ def figure(payload: dict[str, Any], _tell: Tell) -> bytes:
     return packed({"sliders": found.told(), "figure": found.at(values)})
 
 
+def chapter_figure(payload: dict[str, Any], tell: Tell) -> bytes:
+    """A figure of a chapter of the handbook, in the language of the chapter."""
+    from granum.app.chapters import chapter_figure as drawn  # draws with many domains
+
+    note = _("the calculations of the chapter are run")
+    tell(0.0, note)
+    chart = drawn(payload["domain"], payload["name"], payload["code"], lambda share: tell(0.9 * share, note))
+    return str(chart.to_json()).encode()
+
+
 def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
-    """The input for which a result is the wanted one."""
-    return packed(solved_input(valued(payload["key"]), payload))
+    """The input for which a result is the wanted one; of equipment a setting, for one of its figures."""
+    thing = registry.find(payload["key"])
+    return packed(solved_input(thing if thing.card.sort == "equipment" else valued(payload["key"]), payload))
 
 
 def calculation(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -213,11 +221,12 @@ def _residual_unit(test_type: Any) -> str:
 
 def table(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The text of a data file, whatever it was, so that a page can show it and name its columns."""
-    from granum.estimation.tables import as_csv
+    from granum.estimation.tables import as_csv, sheets_of
 
     source = io.BytesIO(payload["content"])
     source.name = payload["name"]
-    return packed({"text": as_csv(source)})
+    text = as_csv(source, payload.get("sheet", ""))
+    return packed({"text": text, "sheets": sheets_of(payload["content"])})
 
 
 @dataclass
@@ -282,7 +291,7 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
             "diagram": outcome.drawing(),
             "stream_table": stream_sheet(outcome),
             "utility_table": utility_table(outcome),
-            "sankey": diagrams(outcome, pretty) if len(outcome.units) > 1 else [],
+            "sankey": diagrams(outcome) if len(outcome.units) > 1 else [],
             "found": found_rows(outcome),
         }
     )
@@ -355,6 +364,7 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
         others,
         sensitivity,
         figure,
+        chapter_figure,
         solve,
         calculation,
         chart,

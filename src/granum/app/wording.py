@@ -9,8 +9,10 @@ from typing import Any
 from granum.core import registry
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
+from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, pretty_unit
+from granum.streams.names import pretty
 
 _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
@@ -32,7 +34,7 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
     ... )
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
     """  # noqa: E501
-    text = _STUDY.sub("", _PLACE.sub(r"\1: ", message))
+    text = _STUDY.sub("", _PLACE.sub(lambda found: _placed(found[1], message), message))
     text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
     text = _WITH_LABEL.sub(_labelled, text)
     text = _ALONE.sub(
@@ -47,6 +49,13 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
         units = [pretty_unit(str(unit)) or "1" for unit in allowed]
         text = text.replace(", ".join(map(str, allowed)), ", ".join(units))
     return _BEGINNING.sub(lambda found: found[0].upper(), text)
+
+
+def _placed(name: str, message: str) -> str:
+    """The unit or feed that a message is about, where it does not name the machine of that name anyway."""
+    if any(key[0].rpartition(".")[2] == name for key in _KEY.finditer(message)):
+        return ""
+    return _("{unit}: {message}").format(unit=pretty(name), message="")
 
 
 def told(error: Mapping[str, Any]) -> dict[str, Any]:

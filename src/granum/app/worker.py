@@ -18,11 +18,11 @@ import threading
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from granum.app.wear import CROWDED, MORE_CROWDED, forget_when_worn
+from granum.app.wear import CROWDED, MORE_CROWDED, forget_when_worn, give_back
 from granum.core import kept
 from granum.core.garbage import collect_seldom
 
-REST = 1.0  # seconds without a task after which programs are written
+REST = 1.0  # seconds without a task after which programs are written and free memory is given back
 
 
 def _limit(megabytes: int) -> None:
@@ -34,11 +34,14 @@ def _limit(megabytes: int) -> None:
 
 
 def _next(tasks: queue.SimpleQueue[Any]) -> Any:
-    """The next task; what tracing made is written while none is there."""
+    """The next task; while none is there, what tracing made is written, and what compiling took and does not
+    need any more, several hundred megabytes at times, goes back to the system.
+    """
     try:
         return tasks.get(timeout=REST)
     except queue.Empty:
         kept.store()
+        give_back()
         return tasks.get()
 
 

@@ -7,6 +7,7 @@ from granum.cases.reading import read, read_text
 from granum.flowsheet.run import Line, Run
 
 if TYPE_CHECKING:
+    from granum.cases.sizing import size
     from granum.cases.studying import read_studies, studies_of_line, studies_of_text
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "read",
     "read_studies",
     "read_text",
+    "size",
     "studies_of_line",
     "studies_of_text",
 ]
@@ -27,4 +29,8 @@ def __getattr__(name: str) -> Any:
         from granum.cases import studying
 
         return getattr(studying, name)
+    if name == "size":  # a run seeks none
+        from granum.cases.sizing import size
+
+        return size
     raise AttributeError(f"granum.cases has no '{name}'")

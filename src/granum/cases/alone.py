@@ -1,8 +1,9 @@
 """A piece of equipment alone: a line of it with an ordinary feed, opened from its name, changed by words.
 
 Words are those of ``granum study``: parameters (``area=12m2``), the streams at the inlets by port
-(``feed.solid_flow=400kg/h``) and the substances under ``mixture`` (``mixture.solids=quartz``). What is not
-said is as in the folder ``units``, one file a domain.
+(``feed.solid_flow=400kg/h``), the substances under ``mixture`` (``mixture.solids=quartz``) and those of one's
+own under ``solid``, ``fluid`` and ``solute`` (``solid.PVC.density=1400kg/m3``). What is not said is as in the
+folder ``units``, one file a domain.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from importlib.resources import files
 from typing import Any
 
 from granum.cases.reading import read_text
-from granum.cases.schema import FeedTable
-from granum.cases.worded import as_toml, put
+from granum.cases.schema import OWN, FeedTable
+from granum.cases.tables import as_toml, put
 from granum.core import registry
+from granum.core.documents import table_in
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.run import Line
@@ -67,23 +69,31 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
     mixture = copy.deepcopy(written["mixtures"][inlets.pop("mixture")])
     feeds = {port: copy.deepcopy(written["feeds"][feed]) for port, feed in inlets.items()}
     found = {"title": thing.card.title, "mixture": mixture, "feeds": feeds, "units": {name: own}}
+    before = _present(mixture)
+    described: dict[str, Any] = {}
     for word, value in (words or {}).items():
-        _say(thing, found, own, word, value)
+        if word.partition(".")[0] in OWN and word.count(".") > 1:
+            put(described, word, _read(word, value))
+        else:
+            _say(thing, found, own, word, _read(word, value))
     _drop_what_is_gone(mixture, feeds)
+    _drop_laws_of({name for _phase, name in before - _present(mixture)}, own, words or {})
     for port, feed in feeds.items():
         feeds[port] = {"to": f"{name}.{port}"} | feed
     found["units"][name] = {"model": key} | own
-    return found
+    return found | described
+
+
+def _read(word: str, value: Any) -> Any:
+    """A value as typed, or the table or list that its text holds."""
+    if isinstance(value, str) and value.lstrip().startswith(("{", "[")):
+        return table_in(value, word)
+    return value
 
 
 def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, value: Any) -> None:
     """One word put where it belongs."""
     head, dot, rest = word.partition(".")
-    if isinstance(value, str) and value.lstrip().startswith(("{", "[")):
-        try:
-            value = json.loads(value)
-        except ValueError:
-            raise InputError(_("'{name}' is not valid JSON.").format(name=word), name=word) from None
     feeds = found["feeds"]
     if head in {p.name for p in thing.card.parameters}:
         if value == "" and not dot:
@@ -126,10 +136,60 @@ def _drop_what_is_gone(mixture: Mapping[str, Any], feeds: Mapping[str, dict[str,
                 del feed[shares]
 
 
+def _present(mixture: Mapping[str, Any]) -> set[tuple[str, str]]:
+    return {(phase, name) for phase in PHASES for name in mixture.get(phase, ())}
+
+
+def _drop_laws_of(gone: set[str], own: dict[str, Any], said: Mapping[str, Any]) -> None:
+    """Parameters of the example, not said by anybody, that name a substance which is no longer there."""
+    kept = {word.partition(".")[0] for word in said}
+    for name, value in list(own.items()):
+        named = value.values() if isinstance(value, Mapping) else [value]
+        if name not in kept and any(isinstance(v, str) and v in gone for v in named):
+            del own[name]
+
+
+def assumed(key: str, words: Mapping[str, Any] | None = None) -> dict[str, str]:
+    """What was not said and is as in the ordinary example, in the words that would change it.
+
+    >>> assumed("streams.heater", {"temperature": "70 degC"})["mixture.liquids"]
+    'water'
+    """
+    found = tables(key, words)
+    (unit,) = found["units"].values()
+    given = {name: value for name, value in unit.items() if name != "model"} | {
+        "mixture": {name: found["mixture"][name] for name in PHASES if found["mixture"].get(name)}
+    }
+    given |= {port: {n: v for n, v in feed.items() if n != "to"} for port, feed in found["feeds"].items()}
+    said = tuple(words or {})
+    return {
+        word: text
+        for word, text in _flat(given)
+        if not any(word == name or word.startswith(f"{name}.") for name in said)
+    }
+
+
+def _flat(given: Mapping[str, Any], before: str = "") -> list[tuple[str, str]]:
+    rows: list[tuple[str, str]] = []
+    for name, value in given.items():
+        if isinstance(value, Mapping):
+            rows += _flat(value, f"{before}{name}.")
+        else:
+            rows.append(
+                (f"{before}{name}", ",".join(map(str, value)) if isinstance(value, list) else str(value))
+            )
+    return rows
+
+
 def case_text(key: str, words: Mapping[str, Any] | None = None) -> str:
     """The case file of a piece of equipment alone."""
     found = tables(key, words)
     parts = [f"title = {as_toml(found['title'])}", _table("mixture", found["mixture"])]
+    parts += [
+        _table(f"{sort}.{json.dumps(name)}", values)
+        for sort in OWN
+        for name, values in found.get(sort, {}).items()
+    ]
     parts += [_table(f"feeds.{port}", feed) for port, feed in found["feeds"].items()]
     parts += [_table(f"units.{name}", unit) for name, unit in found["units"].items()]
     return "\n\n".join(parts) + "\n"
@@ -147,10 +207,18 @@ def alone(key: str, **inputs: Any) -> Line:
     >>> round(line.solve().units["heater"].values.temperature - 273.15)
     70
     """
-    thing = _equipment(key)
-    parameters = {p.name for p in thing.card.parameters}
+    return read_text(case_text(key, as_words(key, inputs)), name=key)
+
+
+def as_words(key: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Inputs as Python says them, in words: those of streams one by one.
+
+    >>> as_words("streams.heater", {"feed": {"liquid_flow": "2 t/h"}})
+    {'feed.liquid_flow': '2 t/h'}
+    """
+    parameters = {p.name for p in _equipment(key).card.parameters}
     words: dict[str, Any] = {}
     for name, value in inputs.items():
         nested = isinstance(value, Mapping) and name not in parameters
         words |= {f"{name}.{part}": v for part, v in value.items()} if nested else {name: value}
-    return read_text(case_text(key, words), name=key)
+    return words

@@ -10,14 +10,15 @@ with every comment and every other line as they were. The text between two steps
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from typing import Any, Concatenate, ParamSpec
 
 import tomlkit
 
 from granum.cases.alone import tables
-from granum.cases.outline import Outline, free_name, identifier, numbered, outline, pretty, table_of
-from granum.cases.reading import parsed, quantity
+from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
+from granum.cases.reading import knowing_own, own_materials, parsed, quantity
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
 from granum.cases.starting import (
     GAS_PER_FEED,
@@ -40,6 +41,7 @@ from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.stream_figures import FIGURES, PHASES, told_of
 from granum.flowsheet.symbols import word_of
+from granum.streams.names import pretty
 
 __all__ = [
     "add_feed",
@@ -65,6 +67,20 @@ __all__ = [
 ]
 
 
+Rest = ParamSpec("Rest")
+
+
+def _with_own_known(step: Callable[Concatenate[str, Rest], str]) -> Callable[Concatenate[str, Rest], str]:
+    """A step that finds the substances that the case describes itself by name."""
+
+    @wraps(step)
+    def wrapped(case: str, *words: Rest.args, **further: Rest.kwargs) -> str:
+        with knowing_own(parsed(case, "case")):
+            return step(case, *words, **further)
+
+    return wrapped
+
+
 def new_line(
     title: str,
     liquids: Sequence[str] = (),
@@ -73,8 +89,9 @@ def new_line(
     smallest: str = "1 um",
     largest: str = "10 mm",
     classes: int = 40,
+    own: str = "",
 ) -> str:
-    """An empty line of some substances.
+    """An empty line of some substances; ``own`` are tables of those that it describes itself.
 
     >>> print(new_line("Salt", ["water"], ["quartz"]), end="")
     title = "Salt"
@@ -87,10 +104,11 @@ def new_line(
     if not title.strip():
         raise InputError(_("The line needs a title."), name="title")
     species = {"liquids": list(liquids), "solids": list(solids), "gases": list(gases)}
-    _require_mixture(species)
+    _require_mixture(species, parsed(own, "case"))
     values = {name: names for name, names in species.items() if names}
     sizes = {"smallest": smallest, "largest": largest, "classes": classes}
-    return with_table(f"title = {written(title.strip())}\n", ("mixture",), values | {"sizes": sizes})
+    text = with_table(f"title = {written(title.strip())}\n", ("mixture",), values | {"sizes": sizes})
+    return f"{text}\n{own.strip()}\n" if own.strip() else text
 
 
 BEGINNINGS = ("solution", "suspension", "moist_solid", "dusty_gas")
@@ -103,10 +121,19 @@ def begin(
     solute: str = "potassium nitrate",
     solid: str = "quartz",
     gas: str = "dry air",
+    own: str = "",
 ) -> str:
     """A line with its first feed: a ``solution`` to crystallize from, a ``suspension``, a ``moist_solid`` to
-    dry or a ``dusty_gas``. What is not needed of the substances is left out.
+    dry or a ``dusty_gas``. What is not needed of the substances is left out; ``own`` are tables of those
+    that the line describes itself.
     """
+    with knowing_own(parsed(own, "case")):
+        text = _begun(title, enters, liquid, solute, solid, gas, own)
+        return add_feed(text, _(enters), values=first_feed(table_of(parsed(text, "case"), "mixture"), enters))
+
+
+def _begun(title: str, enters: str, liquid: str, solute: str, solid: str, gas: str, own: str) -> str:
+    """The line of what enters, without its feed."""
     if enters == "solution":
         crystals = crystals_of(solute, liquid)
         if not crystals:
@@ -116,20 +143,18 @@ def begin(
                 ),
                 name="solute",
             )
-        text = new_line(title, [liquid, solute], crystals)
-    elif enters == "suspension":
-        text = new_line(title, [liquid], [solid])
-    elif enters == "moist_solid":
-        text = new_line(title, [liquid], [solid], [gas, liquid])
-    elif enters == "dusty_gas":
-        text = new_line(title, [], [solid], [gas], "0.1 um", "1 mm")
-    else:
-        raise unknown_name(_("Beginning"), enters, BEGINNINGS)
-    return add_feed(text, _(enters), values=first_feed(table_of(parsed(text, "case"), "mixture"), enters))
+        return new_line(title, [liquid, solute], crystals, own=own)
+    if enters == "suspension":
+        return new_line(title, [liquid], [solid], own=own)
+    if enters == "moist_solid":
+        return new_line(title, [liquid], [solid], [gas, liquid], own=own)
+    if enters == "dusty_gas":
+        return new_line(title, [], [solid], [gas], "0.1 um", "1 mm", own=own)
+    raise unknown_name(_("Beginning"), enters, BEGINNINGS)
 
 
-def _require_mixture(species: Mapping[str, Sequence[str]]) -> None:
-    """Refuses substances that are not in the library, or none at all."""
+def _require_mixture(species: Mapping[str, Sequence[str]], own: Mapping[str, Any] | None = None) -> None:
+    """Refuses substances that are neither in the library nor described by the case, or none at all."""
     from granum.streams.from_materials import mixture_of
 
     if not any(species.values()):
@@ -138,9 +163,11 @@ def _require_mixture(species: Mapping[str, Sequence[str]]) -> None:
         twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
         if twice is not None:
             raise InputError(_("'{name}' is chosen twice.").format(name=twice), name="liquids")
-    mixture_of(species["liquids"], species["solids"], species["gases"], (1e-6, 1e-3))
+    described = filter(None, [own_materials(own or {})])
+    mixture_of(species["liquids"], species["solids"], species["gases"], (1e-6, 1e-3), own=described)
 
 
+@_with_own_known
 def choose_substances(
     case: str, liquids: Sequence[str] = (), solids: Sequence[str] = (), gases: Sequence[str] = ()
 ) -> str:
@@ -150,7 +177,8 @@ def choose_substances(
     _require_mixture(
         species
         if not table_of(raw, "mixture").get("materials")
-        else {"liquids": ["water"], "solids": [], "gases": []}
+        else {"liquids": ["water"], "solids": [], "gases": []},
+        raw,
     )
     for name, names in species.items():
         if names != listed(table_of(raw, "mixture"), name):
@@ -176,6 +204,7 @@ def choose_substances(
     return checked(case)
 
 
+@_with_own_known
 def add_feed(case: str, name: str = "", to: str = "", values: Mapping[str, Any] | None = None) -> str:
     """A feed of what the line is made of, to an inlet or to nowhere yet."""
     found = outline(case)
@@ -208,6 +237,7 @@ def share_of_feed(case: str, feed: str, phase: str, species: str, value: str) ->
     return checked(with_value(case, ("feeds", feed), phase, {n: shares[n] for n in names if n in shares}))
 
 
+@_with_own_known
 def completed(case: str, feed: str) -> str:
     """A feed that was given a flow of a phase it did not have so far, with shares and sizes to begin with."""
     raw = parsed(case, "case")
@@ -268,6 +298,7 @@ def _flow(table: Mapping[str, Any], name: str) -> float:
     return quantity(table[name], "MassFlow", name, "") if name in table else 0.0
 
 
+@_with_own_known
 def add_unit(
     case: str, model: str, name: str = "", origin: str = "", values: Mapping[str, Any] | None = None
 ) -> str:

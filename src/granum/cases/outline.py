@@ -14,6 +14,7 @@ from granum.core import registry
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
 from granum.flowsheet.plan import Block, Link, plan
+from granum.streams.names import port_label, pretty
 
 
 class Port(NamedTuple):
@@ -73,25 +74,6 @@ class Outline:
                     seen.add(k.target_unit)
                     ahead.append(k.target_unit)
         return seen
-
-
-def pretty(name: str) -> str:
-    """An identifier as people read it.
-
-    >>> pretty("hot_liquor"), pretty("hot_liquor.vapor_2")
-    ('hot liquor', 'hot liquor · vapor 2')
-    """
-    unit, dot, port = name.partition(".")
-    return unit.replace("_", " ") + (f" · {port_label(port)}" if dot else "")
-
-
-# where the bare word says something else in another place
-PORTS = {"heavy": "heavy liquid", "light": "light liquid"}
-
-
-def port_label(port: str) -> str:
-    """The name of a port in the current language."""
-    return _(PORTS.get(port, port.replace("_", " ")))
 
 
 def outline(case: str) -> Outline:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -11,7 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from granum.cases.fitted import fits_of, fitted_values
-from granum.cases.schema import Case, DynamicTable, FeedTable, MixtureTable, StreamTable
+from granum.cases.schema import OWN, Case, DynamicTable, FeedTable, MixtureTable, StreamTable
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.documents import read_toml
@@ -24,7 +25,7 @@ from granum.flowsheet.dynamics import Profile, check_profiles, check_start
 from granum.flowsheet.run import Line, Movement
 from granum.flowsheet.specifications import Target, looked_at, varied
 from granum.flowsheet.utilities import priced
-from granum.materials.library import Library
+from granum.materials.library import Library, including, session
 from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
@@ -125,7 +126,7 @@ def quantity(value: Any, kind: str, name: str, where: str) -> float:
 def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
     """The line a validated case describes."""
     try:
-        mixture = _mixture(case.mixture, folder)
+        mixture = _mixture(case, folder)
     except GranumError as problem:
         raise CaseError(
             problem.message if "[mixture" in problem.message else f"[mixture] {problem.message}",
@@ -175,8 +176,29 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
     )
 
 
-def _mixture(table: MixtureTable, folder: Path | None) -> Mixture:
-    s = table.sizes
+def own_materials(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables of a case that describe materials, as a materials file has them."""
+    return {sort: dict(tables[sort]) for sort in OWN if tables.get(sort)}
+
+
+@contextmanager
+def knowing_own(raw: Mapping[str, Any], folder: Path | None = None) -> Iterator[None]:
+    """What a case describes itself, and the files it names, are known by name as the library is; where they
+    cannot be read, the library alone.
+    """
+    mixture = raw.get("mixture")
+    files = mixture.get("materials", []) if isinstance(mixture, dict) and folder else []
+    own = [folder / str(file) for file in files] if folder and isinstance(files, list) else []
+    try:
+        library = session().with_own([*own, *filter(None, [own_materials(raw)])])
+    except (GranumError, AttributeError, TypeError):
+        library = session()
+    with including(library):
+        yield
+
+
+def _mixture(case: Case, folder: Path | None) -> Mixture:
+    table, s = case.mixture, case.mixture.sizes
     if s.boundaries is not None:
         edges = np.asarray(
             convert(
@@ -196,7 +218,8 @@ def _mixture(table: MixtureTable, folder: Path | None) -> Mixture:
             raise CaseError(_("[mixture.sizes] 'smallest' must be below 'largest'."))
         edges = np.geomspace(low, high, s.classes + 1)
     axes = tuple((name, tuple(axis.boundaries)) for name, axis in table.axes.items())
-    own = [(folder or Path()) / file for file in table.materials]
+    own: list[Any] = [(folder or Path()) / file for file in table.materials]
+    own += filter(None, [own_materials(dict(case))])
     return mixture_of(table.liquids, table.solids, table.gases, edges, axes=axes, own=own)
 
 

@@ -162,6 +162,9 @@ class StudyFile(Studied):
     inputs: dict[str, Any] = Field(default={}, description="inputs of the card that stay fixed")
 
 
+OWN = ("solid", "fluid", "solute")  # tables of materials of one's own, as in a materials file
+
+
 class Case(Studied):
     """A whole case file."""
 
@@ -170,6 +173,15 @@ class Case(Studied):
     language: str | None = None
     report: Project = Project()
     mixture: MixtureTable
+    solid: dict[str, dict[str, Any]] = Field(
+        default={}, description="solids of one's own by name: density and heat_capacity at least"
+    )
+    fluid: dict[str, dict[str, Any]] = Field(
+        default={}, description="liquids and gases of one's own by name, as in a materials file"
+    )
+    solute: dict[str, dict[str, Any]] = Field(
+        default={}, description="solutes of one's own by name, as in a materials file"
+    )
     feeds: dict[str, FeedTable]
     units: dict[str, dict[str, Any]]
     streams: dict[str, StreamTable | list[str]] = {}

@@ -15,7 +15,6 @@ from granum.cases.outline import (
     numbered,
     outline,
     port_label,
-    pretty,
     table_of,
 )
 from granum.cases.sections import (
@@ -31,6 +30,7 @@ from granum.cases.sections import (
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.plan import Link
+from granum.streams.names import pretty
 
 MIXER, SPLITTER = "streams.mixer", "streams.splitter"
 PURGE = "20 %"

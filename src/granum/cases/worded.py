@@ -3,7 +3,7 @@ that says the same.
 
 ``pressure_drop=0.3..0.8bar`` is a range, ``cake_resistance=1e7+-30%`` a spread. Equipment takes the streams
 at its inlets by port (``feed.solid_flow=800kg/h``) and the substances under ``mixture``
-(``mixture.solids=quartz``), as the tables of a case file do.
+(``mixture.solids=quartz``), as the tables of a case file do; what is not said is as in its ordinary example.
 """
 
 from __future__ import annotations
@@ -13,6 +13,9 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from granum.cases.alone import tables
+from granum.cases.schema import OWN
+from granum.cases.tables import as_toml
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -60,6 +63,14 @@ def study_text(
     spreads = {
         name: _pair(name, value, "±") for name, value in words.items() if "+-" in value or "±" in value
     }
+    for name in (*ranges, *spreads):
+        if name.partition(".")[0] in OWN and name.count(".") > 1:
+            raise InputError(
+                _("'{name}' belongs to a material: a study cannot vary it, give it one value.").format(
+                    name=name
+                ),
+                name=name,
+            )
     fixed = {name: value for name, value in words.items() if name not in ranges and name not in spreads}
     unit = key.rpartition(".")[2] if thing.card.sort == "equipment" else ""
     own = {p.name for p in (*thing.card.parameters, *thing.card.outputs)} if unit else set()
@@ -90,13 +101,9 @@ def study_text(
     study |= {"outputs": [path(name) for name in shown]} if shown else {}
     study |= {"limits": _limits(limit, path)} if limit else {}
     middle = {n: low for n, (low, _other) in (ranges | spreads).items()}
-    model = (
-        _line(thing, unit, fixed | middle)
-        if unit
-        else {"title": thing.card.title, "card": key, "inputs": fixed}
-    )
-    tables = {**model, "uncertain": uncertain, "study": {kind: study}}
-    return "\n".join(f"{json.dumps(name)} = {as_toml(value)}" for name, value in tables.items()) + "\n"
+    model = tables(key, fixed | middle) if unit else {"title": thing.card.title, "card": key, "inputs": fixed}
+    written = {**model, "uncertain": uncertain, "study": {kind: study}}
+    return "\n".join(f"{json.dumps(name)} = {as_toml(value)}" for name, value in written.items()) + "\n"
 
 
 def _kind(ranges: int, spreads: int, best: bool, sobol: bool, samples: int | None) -> str:
@@ -166,68 +173,3 @@ def _limits(words: Sequence[str], path: Any) -> dict[str, dict[str, str]]:
         name, sign, value = (part.strip() for part in match.groups())
         found.setdefault(path(name), {})["upper" if sign[0] == "<" else "lower"] = value
     return found
-
-
-def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
-    """The tables of a case with one unit, whose inlets are feeds of the names of its ports."""
-    ports, parameters = thing.inlet_names(), {p.name for p in thing.card.parameters}
-    tables: dict[str, Any] = {"mixture": {}, "feeds": {}, "units": {unit: {"model": thing.card.key}}}
-    for name, value in words.items():
-        head, dot, rest = name.partition(".")
-        if head in parameters:
-            put(tables["units"][unit], name, value)
-        elif head == "mixture" and dot:
-            put(
-                tables["mixture"],
-                rest,
-                [part.strip() for part in value.split(",")]
-                if rest in ("solids", "liquids", "gases")
-                else value,
-            )
-        elif dot and (ports is None or head in ports):
-            put(tables["feeds"].setdefault(head, {"to": f"{unit}.{head}"}), rest, value)
-        else:
-            raise unknown_name(
-                _("Input"),
-                name,
-                (*parameters, *(f"{p}.liquid_flow" for p in ports or ())),
-                _("for {owner}").format(owner=thing.card.key),
-            )
-    for port in ports or ():
-        if port not in tables["feeds"] and port not in thing.optional_inlets():
-            raise InputError(
-                _(
-                    "{owner} needs a stream at its inlet '{port}': give its flow, such as "
-                    "{port}.liquid_flow=1000kg/h, and what it is made of, such as mixture.liquids=water."
-                ).format(owner=thing.card.key, port=port),
-                name=port,
-            )
-    return {"title": thing.card.title, **tables}
-
-
-def put(table: dict[str, Any], name: str, value: Any) -> None:
-    """Sets ``a.b`` inside nested tables; a law that has parameters as well is ``a = {law = …}``."""
-    head, dot, rest = name.partition(".")
-    if not dot:
-        if isinstance(table.get(head), dict):
-            table[head]["law"] = value
-        else:
-            table[head] = value
-        return
-    inner = table.get(head, {})
-    table[head] = inner if isinstance(inner, dict) else {"law": inner}
-    put(table[head], rest, value)
-
-
-def as_toml(value: Any) -> str:
-    if isinstance(value, Mapping):
-        return (
-            "{ "
-            + ", ".join(f"{json.dumps(str(k), ensure_ascii=False)} = {as_toml(v)}" for k, v in value.items())
-            + " }"
-            if value
-            else "{}"
-        )
-    if isinstance(value, list):
-        return "[" + ", ".join(map(as_toml, value)) + "]"
-    return json.dumps(value, ensure_ascii=False)

@@ -12,6 +12,10 @@ from granum.conveying.equipment.slurry import (
     SlurryFigures as SlurryFigures,
     SlurryPipeline as SlurryPipeline,
 )
+from granum.conveying.equipment.thick_slurry import (
+    ThickSlurryFigures as ThickSlurryFigures,
+    ThickSlurryPipeline as ThickSlurryPipeline,
+)
 from granum.conveying.formulas.hoppers import (
     WallStresses as WallStresses,
     critical_strength as critical_strength,
@@ -20,6 +24,16 @@ from granum.conveying.formulas.hoppers import (
     mass_flow_beverloo as mass_flow_beverloo,
     outlet_width_jenike as outlet_width_jenike,
     silo_stresses_janssen as silo_stresses_janssen,
+)
+from granum.conveying.formulas.non_newtonian import (
+    friction_factor_darby_melson as friction_factor_darby_melson,
+    friction_factor_dodge_metzner as friction_factor_dodge_metzner,
+    hedstrom_number as hedstrom_number,
+    pressure_gradient_bingham as pressure_gradient_bingham,
+    pressure_gradient_herschel_bulkley as pressure_gradient_herschel_bulkley,
+    pressure_gradient_power_law as pressure_gradient_power_law,
+    reynolds_critical_ryan_johnson as reynolds_critical_ryan_johnson,
+    reynolds_metzner_reed as reynolds_metzner_reed,
 )
 from granum.conveying.formulas.pipes import (
     friction_factor_churchill as friction_factor_churchill,
@@ -49,6 +63,9 @@ from granum.conveying.formulas.thresholds import (
     saltation_velocity_rizk as saltation_velocity_rizk,
     saltation_velocity_schade as saltation_velocity_schade,
     saltation_velocity_weber as saltation_velocity_weber,
+)
+from granum.conveying.lab_tests.flow_curve import (
+    FlowCurveTest as FlowCurveTest,
 )
 from granum.conveying.lab_tests.shear_cell import (
     FlowFunction as FlowFunction,

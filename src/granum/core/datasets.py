@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from granum.core.unit_names import parse_unit, registry
+from granum.core.unit_names import in_base_units
+from granum.core.unit_table import BASE, rows
 
 
 @cache
@@ -32,8 +33,8 @@ def dataset(domain: str, name: str) -> tuple[dict[str, Any], ...]:
 
 def columns(domain: str, name: str) -> dict[str, np.ndarray]:
     """The columns of a table, in SI."""
-    rows = dataset(domain, name)
-    return {word: np.array([row[word] for row in rows]) for word in rows[0]}
+    table = dataset(domain, name)
+    return {word: np.array([row[word] for row in table]) for word in table[0]}
 
 
 def _read(head: str, cell: str) -> tuple[str, Any]:
@@ -41,6 +42,8 @@ def _read(head: str, cell: str) -> tuple[str, Any]:
     if not unit:
         return word, cell
     number = float(cell or "nan")
-    return word, number if unit == "SI" else float(
-        registry().Quantity(number, parse_unit(unit)).to_base_units().magnitude
-    )
+    if unit == BASE:
+        return word, number
+    row = rows().get((unit, BASE))
+    factor, offset = (row.factor, row.offset) if row is not None else in_base_units(unit)
+    return word, factor * number + offset

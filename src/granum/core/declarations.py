@@ -189,7 +189,7 @@ def law(
     title: str = "",
     symbols: Mapping[str, str] | None = None,
 ) -> Callable[[type[T]], type[T]]:
-    """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the
+    """Declare a parametrized law: a frozen module whose fields are its parameters and whose call is the
     law.
 
     ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from typing import Any
@@ -29,6 +30,27 @@ def read_toml(text: str) -> dict[str, Any]:
         raise InputError(_("tables stand in tables deeper than {count}").format(count=DEEPEST)) from None
     except ValueError:  # Python reads no whole number of more than 4300 digits
         raise InputError(_("a number has more digits than can be read")) from None
+
+
+def table_in(text: str, name: str) -> Any:
+    """The table or list that a text holds, as JSON or as it stands in a case file.
+
+    >>> table_in('{"law": "page"}', "kinetics") == table_in('{law = "page"}', "kinetics")
+    True
+    """
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        pass
+    try:
+        return read_toml(f"v = {text}")["v"]
+    except InputError:
+        raise InputError(
+            _("'{name}': '{text}' is no table; write it as {example}.").format(
+                name=name, text=text[:40], example='{law = "…", … = "…"}'
+            ),
+            name=name,
+        ) from None
 
 
 _SAID = re.compile(

@@ -18,7 +18,6 @@ import tempfile
 from collections.abc import Callable
 from functools import cache
 from hashlib import sha256
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -171,6 +170,8 @@ def _is_ours(folder: Path) -> bool:
 @cache
 def _surroundings() -> bytes:
     """All that a trace depends on and no argument says."""
+    from importlib.metadata import version
+
     settings = sorted(row for row in os.environ.items() if row[0].startswith(("JAX_", "XLA_", "GRANUM_")))
     settings = [row for row in settings if "CACHE" not in row[0]]
     told = sha256(repr([sys.version, platform.machine(), *map(version, TRACERS), settings]).encode())
@@ -195,12 +196,24 @@ def _digest(identity: Any) -> tuple[str, list[Any]]:
     return sha256(_surroundings() + file.getvalue()).hexdigest(), writer.whole
 
 
-def _reference(thing: Any) -> tuple[str, str] | None:
-    """How something declared is found in another process."""
+def _card(key: str) -> Any:
+    """Something declared, as another process finds it."""
     from granum.core import registry
 
+    return registry.find(key)
+
+
+def _whole(place: int) -> Any:
+    """What stands at a place of the name of a program: its reader knows it."""
+    raise LookupError(place)
+
+
+def _reference(thing: Any) -> tuple[Callable[[str], Any], tuple[str]] | None:
+    """How something declared is written."""
+    from granum.core import registry  # commands that keep nothing need not know it
+
     key = registry.key_of(thing)
-    return None if key is None or _root(thing) not in TRUSTED else ("card", key)
+    return None if key is None or _root(thing) not in TRUSTED else (_card, (key,))
 
 
 def _root(thing: Any) -> str:
@@ -214,12 +227,10 @@ class _Namer(pickle.Pickler):
         super().__init__(file, protocol=5)
         self.whole: list[Any] = []
 
-    def persistent_id(self, thing: Any) -> Any:
-        if isinstance(thing, Slot):
-            return "slot"
-        return _reference(thing)
-
     def reducer_override(self, thing: Any) -> Any:
+        reference = _reference(thing)
+        if reference is not None:
+            return reference
         if callable(thing) and _root(thing) not in TRUSTED:
             raise Unkept
         if dataclasses.is_dataclass(thing) and not isinstance(thing, type):
@@ -254,11 +265,11 @@ class _Writer(pickle.Pickler):
         super().__init__(file, protocol=5)
         self._places = {id(thing): i for i, thing in enumerate(whole)}
 
-    def persistent_id(self, thing: Any) -> Any:
+    def reducer_override(self, thing: Any) -> Any:
         place = self._places.get(id(thing))
         if place is not None:
-            return "whole", place
-        return _reference(thing)
+            return _whole, (place,)
+        return _reference(thing) or NotImplemented
 
 
 class _Loader(pickle.Unpickler):
@@ -268,13 +279,9 @@ class _Loader(pickle.Unpickler):
         super().__init__(io.BytesIO(data))
         self._whole = whole
 
-    def persistent_load(self, pid: Any) -> Any:
-        from granum.core import registry
-
-        sort, name = pid
-        return self._whole[name] if sort == "whole" else registry.find(name)
-
     def find_class(self, module_name: str, name: str) -> Any:
+        if (module_name, name) == (__name__, _whole.__name__):
+            return self._whole.__getitem__
         root = module_name.partition(".")[0]
         if root not in TRUSTED or (root == "builtins" and name not in HARMLESS):
             raise pickle.UnpicklingError(name)

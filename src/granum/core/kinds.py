@@ -118,6 +118,7 @@ Angle = Annotated[Any, _any("angle", "radian", "degree")]
 Time = Annotated[Any, _nonnegative("time", "s", "min", "hour", "day", "s", "ms", "us")]
 Frequency = Annotated[Any, _nonnegative("frequency", "1/s", "1/min", "1/hour")]
 RotationSpeed = Annotated[Any, _nonnegative("rotation speed", "radian/s", "rpm")]
+TurningSpeed = Annotated[Any, _positive("rotation speed", "radian/s", "rpm")]
 SpecificSurface = Annotated[Any, _positive("surface per volume", "1/m", "m^2/cm^3", "1/mm")]
 SpecificSurfaceMass = Annotated[Any, _positive("surface per mass", "m^2/kg", "m^2/g", "cm^2/g")]
 ReciprocalLength = Annotated[Any, _nonnegative("reciprocal length", "1/m", "1/m", "1/mm")]
@@ -196,6 +197,8 @@ Ratio = Annotated[Any, _nonnegative("ratio", "dimensionless", "dimensionless", "
 # masses too: only their ratios count
 Amount = Annotated[Any, _nonnegative("relative amount", "dimensionless", "dimensionless", "percent")]
 PositiveNumber = Annotated[Any, _positive("positive number", "dimensionless", "dimensionless")]
+FlowIndex = Annotated[PositiveNumber, Within(0.1, 1.9)]
+ShearRate = Annotated[Frequency, Within(1e-6, 1e6)]
 Fraction = Annotated[Any, Kind("fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
 OpenFraction = Annotated[
     Any,

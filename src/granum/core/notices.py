@@ -36,7 +36,7 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
             {
                 "flag": WORDS[found.bit],
                 "name": found.name,
-                "card": found.card,
+                "card": str(found.card),
                 "count": 0,
                 "worst": None,
                 "low": low if np.isfinite(low) else None,
@@ -49,7 +49,7 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
         limited = found.bit in (OUTSIDE_DOMAIN, EXTRAPOLATED) and (
             row["low"] is not None or row["high"] is not None
         )
-        told = ([_sentence(row)] if limited or not found.reason else []) + (
+        told = ([_sentence(row, found.card)] if limited or not found.reason else []) + (
             [_(found.reason)] if found.reason else []
         )
         if found.bit == LIMIT_ACTIVE:
@@ -115,8 +115,8 @@ def _elements(row: dict[str, Any], values: np.ndarray, total: int) -> str:
     )
 
 
-def _sentence(row: dict[str, Any]) -> str:
-    """One readable line for a flag."""
+def _sentence(row: dict[str, Any], card: str) -> str:
+    """One readable line for a flag; a property of a material says its name in the current language."""
     word = quantity_in(row["name"])
     name = term(word).label if word else row["name"]
     shown, unit = units_of(row)
@@ -134,7 +134,7 @@ def _sentence(row: dict[str, Any]) -> str:
         "not finite": _("{name} is not a finite number in {card}."),
         "not converged": _("{name} did not converge in {card}."),
     }
-    return templates[row["flag"]].format(name=name, value=value, span=span, card=row["card"])
+    return templates[row["flag"]].format(name=name, value=value, span=span, card=getattr(card, "label", card))
 
 
 def units_of(row: dict[str, Any]) -> tuple[Any, str]:

@@ -89,6 +89,9 @@ PLAIN: dict[str, Step] = {
     "sinh": np.sinh,
     "cosh": np.cosh,
     "tanh": np.tanh,
+    "asinh": np.arcsinh,
+    "acosh": np.arccosh,
+    "atanh": np.arctanh,
     "eq": lambda x, y: x == y,
     "ne": lambda x, y: x != y,
     "lt": lambda x, y: x < y,
@@ -284,8 +287,12 @@ def _places(indices: Any, mode: Any, sizes: Sequence[int]) -> tuple[tuple[Any, .
 
 
 def _gather(params: Any, op: Operation) -> Step | None:
-    """Whole rows picked by index, along some axes; other patterns are left to JAX."""
+    """Whole rows picked by index along some axes, or windows brought inside; other patterns are left to
+    JAX.
+    """
     numbers, shape, mode = params["dimension_numbers"], op.given[0].shape, params["mode"]
+    if not numbers.operand_batching_dims and "CLIP" in str(mode):
+        return _windows(params, shape)
     indexed = tuple(numbers.start_index_map)
     others = tuple(axis for axis in range(len(shape)) if axis not in indexed)
     full = all(params["slice_sizes"][axis] == shape[axis] for axis in others)
@@ -306,6 +313,25 @@ def _gather(params: Any, op: Operation) -> Step | None:
             found = np.where(lost, fill, found)
         count = inside.ndim
         return np.moveaxis(found, range(count, count + len(others)), numbers.offset_dims)
+
+    return step
+
+
+def _windows(params: Any, shape: tuple[int, ...]) -> Step:
+    numbers, sizes = params["dimension_numbers"], params["slice_sizes"]
+    indexed = tuple(numbers.start_index_map)
+    along = np.ogrid[tuple(slice(size) for size in sizes)]
+
+    def step(x: Any, indices: Any) -> Any:
+        count = indices.ndim - 1
+        starts = [0] * len(shape)
+        for k, axis in enumerate(indexed):
+            first = np.clip(indices[..., k], 0, shape[axis] - sizes[axis])
+            starts[axis] = np.reshape(first, first.shape + (1,) * len(shape))
+        found = x[tuple(start + part for start, part in zip(starts, along, strict=True))]
+        found = np.broadcast_to(found, (*indices.shape[:-1], *sizes))
+        kept = np.squeeze(found, tuple(count + axis for axis in numbers.collapsed_slice_dims))
+        return np.moveaxis(kept, range(count, kept.ndim), numbers.offset_dims)
 
     return step
 

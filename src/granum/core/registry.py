@@ -103,7 +103,8 @@ def find(key: str) -> Any:
     found = known(key)
     if found is not None:
         return found
-    if nearest(key, everything()) is None:
+    names = {*entries(), *_declared}
+    if nearest(key, names) is None:
         word = key.rpartition(".")[2] or key
         raise InputError(
             _("There is no card '{key}'. 'granum list {word}' shows those that speak of it.").format(
@@ -111,7 +112,7 @@ def find(key: str) -> Any:
             ),
             name=key,
         )
-    raise unknown_name(_("Card"), key, everything())
+    raise unknown_name(_("Card"), key, names)
 
 
 def family(name: str) -> dict[str, Any]:

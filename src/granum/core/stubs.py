@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import asdict, fields
@@ -21,7 +22,8 @@ from granum.core.i18n import LANGUAGES, language
 from granum.core.index import Entry
 from granum.core.kinds import KINDS
 from granum.core.registry import DOMAINS, everything
-from granum.core.unit_names import same_by_pint
+from granum.core.unit_names import in_base_units, same_by_pint
+from granum.core.unit_table import BASE
 from granum.core.units import FIELD, affine_by_pint, angles_by_pint, pretty_unit
 
 PACKAGES = ("core", *DOMAINS)
@@ -89,8 +91,8 @@ PER_AMOUNT = {
 
 
 def unit_table() -> str:
-    """The text of ``granum/core/unit_table.csv``: every unit of a kind, a glossary entry or the customary
-    system, by Pint.
+    """The text of ``granum/core/unit_table.csv``: every unit of a kind, a glossary entry, the customary
+    system or a head of a table, by Pint.
     """
     usual = sorted({term.unit for term in glossary().values() if term.unit})
     text = io.StringIO()
@@ -110,7 +112,15 @@ def unit_table() -> str:
             if known:
                 factor, offset = known
                 table.writerow((unit, si, repr(factor), repr(offset), int(angles_by_pint(unit))))
+    for unit in sorted(units_of_tables() - {BASE}):
+        table.writerow((unit, BASE, *map(repr, in_base_units(unit)), int(angles_by_pint(unit))))
     return text.getvalue()
+
+
+def units_of_tables() -> set[str]:
+    """The units in the heads of the tables that come with the package."""
+    heads = (file.read_text(encoding="utf-8").partition("\n")[0] for file in ROOT.glob("*/data/*.csv"))
+    return {unit for head in heads for unit in re.findall(r"\[([^\]]+)\]", head)}
 
 
 def path_of_unit_table() -> Path:

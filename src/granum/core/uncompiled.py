@@ -26,6 +26,10 @@ RENT = 500
 """Steps run uncompiled that cost as much as compiling one operation."""
 LENT = 220
 """The same for a loop that is kept compiled: the next process takes it ready."""
+AGAIN = 10
+"""How much longer a loop of a kept program that was not worth compiling runs uncompiled: to compile it now,
+all is traced anew.
+"""
 MODERATE = 8000
 """Operations of a loop up to which this holds: to compile a whole line makes a first run long."""
 LEAST = 100
@@ -167,9 +171,9 @@ class _Loop:
     def __init__(self, op: Operation, maker: _Maker, size: float, work: float):
         self._op, self._options, self._kept = op, maker.options, maker.kept
         rent = LENT if self._kept and size <= MODERATE else RENT
-        self._left = rent * (size + LEAST)
         self.size, self.work = size, work
         self.written = next(maker.written, None)
+        self._left = rent * (size + LEAST) * (AGAIN if op.whole is None and self.written is None else 1)
         self.is_lost = False
         self._compiled: Callable[..., Any] | None = None
         if self.written is not None or work * maker.runs > self._left:

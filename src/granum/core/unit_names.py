@@ -141,3 +141,16 @@ def fits(unit: str, kind_unit: str) -> bool:
         return same_dimension(unit, kind_unit)
     except UnitError:
         return False
+
+
+@cache
+def in_base_units(unit: str) -> tuple[float, float]:
+    """(factor, offset) such that ``SI = factor·value + offset``, in the SI unit of its own quantity, by Pint.
+
+    >>> in_base_units("kg/GJ")
+    (1e-09, 0.0)
+    """
+    zero, one = (
+        registry().Quantity(value, parse_unit(unit)).to_base_units().magnitude for value in (0.0, 1.0)
+    )
+    return float(one - zero), float(zero)

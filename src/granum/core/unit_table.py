@@ -13,10 +13,13 @@ from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
+BASE = "SI"
+"""In place of the SI unit of a kind: that of the unit's own quantity."""
+
 
 class Row(NamedTuple):
-    """``SI = factor·value + offset`` for a unit as written and an SI unit of a kind; whether it counts
-    angles.
+    """``SI = factor·value + offset`` for a unit as written and an SI unit of a kind, or ``BASE``; whether it
+    counts angles.
     """
 
     factor: float

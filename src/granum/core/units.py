@@ -240,6 +240,7 @@ _PRETTY = {
     "ug": "µg",
     "uN": "µN",
     "uPa": "µPa",
+    "umol": "µmol",
     "degC": "°C",
     "degF": "°F",
     "percent": "%",

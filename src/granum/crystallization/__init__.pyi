@@ -6,6 +6,9 @@ from granum.crystallization.charts import (
     size_distribution_chart as size_distribution_chart,
     solubility_chart as solubility_chart,
 )
+from granum.crystallization.charts_ionizable import (
+    ph_solubility_chart as ph_solubility_chart,
+)
 from granum.crystallization.charts_melt import (
     layer_purity_chart as layer_purity_chart,
     zone_refining_chart as zone_refining_chart,
@@ -45,7 +48,6 @@ from granum.crystallization.equipment.heat import (
 )
 from granum.crystallization.equipment.in_time import (
     Crystallized as Crystallized,
-    Held as Held,
     InTime as InTime,
 )
 from granum.crystallization.equipment.layer_melt import (
@@ -61,6 +63,15 @@ from granum.crystallization.equipment.msmpr import (
     VacuumCrystallizer as VacuumCrystallizer,
     VacuumFigures as VacuumFigures,
 )
+from granum.crystallization.equipment.oslo import (
+    OsloCrystallizer as OsloCrystallizer,
+    OsloFigures as OsloFigures,
+)
+from granum.crystallization.equipment.precipitator import (
+    Precipitator as Precipitator,
+    PrecipitatorFigures as PrecipitatorFigures,
+    Reacted as Reacted,
+)
 from granum.crystallization.equipment.roles import (
     Roles as Roles,
 )
@@ -72,6 +83,12 @@ from granum.crystallization.equipment.two_salts import (
     Parted as Parted,
     TwoSaltCrystallizer as TwoSaltCrystallizer,
     TwoSaltFigures as TwoSaltFigures,
+)
+from granum.crystallization.equipment.uptake import (
+    ImpurityUptake as ImpurityUptake,
+    Shared as Shared,
+    TakenUp as TakenUp,
+    UptakeFigures as UptakeFigures,
 )
 from granum.crystallization.formulas.agglomeration import (
     AgglomerationKernel as AgglomerationKernel,
@@ -154,6 +171,21 @@ from granum.crystallization.formulas.growth import (
     growth_rate_power as growth_rate_power,
     growth_rate_spiral as growth_rate_spiral,
 )
+from granum.crystallization.formulas.impurities import (
+    ImpededGrowth as ImpededGrowth,
+    PinnedSteps as PinnedSteps,
+    growth_ratio_kubota_mullin as growth_ratio_kubota_mullin,
+    pinning_supersaturation as pinning_supersaturation,
+    undercooling_growth_start as undercooling_growth_start,
+)
+from granum.crystallization.formulas.ionizable import (
+    IonizedSolubility as IonizedSolubility,
+    SolubilityAtPh as SolubilityAtPh,
+    ph_limit_salt as ph_limit_salt,
+    solubility_ampholyte as solubility_ampholyte,
+    solubility_weak_acid as solubility_weak_acid,
+    solubility_weak_base as solubility_weak_base,
+)
 from granum.crystallization.formulas.melt import (
     Segregation as Segregation,
     distribution_coefficient_effective as distribution_coefficient_effective,
@@ -161,6 +193,11 @@ from granum.crystallization.formulas.melt import (
     impurity_ratio_zone as impurity_ratio_zone,
     impurity_ratio_zone_ultimate as impurity_ratio_zone_ultimate,
     segregation_freezing as segregation_freezing,
+)
+from granum.crystallization.formulas.mixing_times import (
+    induction_time_volume as induction_time_volume,
+    mixing_time_engulfment as mixing_time_engulfment,
+    mixing_time_nienow as mixing_time_nienow,
 )
 from granum.crystallization.formulas.msmpr import (
     coefficient_of_variation as coefficient_of_variation,
@@ -202,6 +239,10 @@ from granum.crystallization.formulas.programs import (
     Program as Program,
     TemperaturePoints as TemperaturePoints,
     temperature_cooling_power as temperature_cooling_power,
+)
+from granum.crystallization.formulas.purity import (
+    Purity as Purity,
+    purity_of_crystals as purity_of_crystals,
 )
 from granum.crystallization.formulas.ripening import (
     crystal_size_ripened as crystal_size_ripened,
@@ -304,6 +345,10 @@ from granum.crystallization.vessels.batch import (
     agglomerating_batch as agglomerating_batch,
     batch as batch,
 )
+from granum.crystallization.vessels.classified_bed import (
+    Bed as Bed,
+    Upflow as Upflow,
+)
 from granum.crystallization.vessels.common_ion import (
     InvariantPoint as InvariantPoint,
     Isotherm as Isotherm,
@@ -349,6 +394,12 @@ from granum.crystallization.vessels.precipitation import (
     ReagentAddition as ReagentAddition,
     SaltEquilibrium as SaltEquilibrium,
     precipitation_batch as precipitation_batch,
+)
+from granum.crystallization.vessels.reacting import (
+    ByActivity as ByActivity,
+    Held as Held,
+    ReactedVolume as ReactedVolume,
+    Reacting as Reacting,
 )
 from granum.crystallization.vessels.zone_melting import (
     ZoneRefined as ZoneRefined,

@@ -59,6 +59,17 @@ PositiveMolarEnergy = Annotated[MolarEnergy, Within(0.0)]
 ProductionRate = Annotated[
     Any, Kind("production per volume", "kg/(m^3*s)", lower=0.0, display=("kg/(m^3*hour)", "kg/(m^3*s)"))
 ]
+StepEnergy = Annotated[
+    Any, Kind("energy per length of a step", "J/m", lower=0.0, open_lower=True, display=("J/m", "pJ/m"))
+]
+ImpurityConcentration = Annotated[
+    Any,
+    Kind("impurity in the liquor", "mol/m^3", lower=0.0, display=("mmol/L", "umol/L", "mol/L", "mol/m^3")),
+]
+AdsorptionCoefficient = Annotated[
+    Any, Kind("Langmuir coefficient", "m^3/mol", lower=0.0, display=("L/mol", "m^3/mol"))
+]
+InclusionShare = Annotated[MassFraction, Within(0.0, 0.5)]  # of a crystal's volume
 Solubility = Annotated[Any, Law("solubility_law")]
 Growth = Annotated[Any, Law("growth_rate")]
 Nucleation = Annotated[Any, Law("nucleation_rate")]

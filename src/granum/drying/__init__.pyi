@@ -129,6 +129,12 @@ from granum.drying.equipment.tray import (
 from granum.drying.equipment.tunnel import (
     TunnelDryer as TunnelDryer,
 )
+from granum.drying.equipment.vacuum_shelves import (
+    Boiling as Boiling,
+    ShelfDried as ShelfDried,
+    ShelfFigures as ShelfFigures,
+    VacuumShelfDryer as VacuumShelfDryer,
+)
 from granum.drying.equipment.web_ovens import (
     AbstractWebOven as AbstractWebOven,
     ImpingementDryer as ImpingementDryer,
@@ -139,6 +145,12 @@ from granum.drying.equipment.web_ovens import (
 from granum.drying.equipment.well_mixed import (
     WellMixedDryer as WellMixedDryer,
     WellMixedFigures as WellMixedFigures,
+)
+from granum.drying.formulas.aeration import (
+    Aerated as Aerated,
+    Fronts as Fronts,
+    aeration_fronts as aeration_fronts,
+    bin_aeration as bin_aeration,
 )
 from granum.drying.formulas.assisted import (
     AssistedDrying as AssistedDrying,
@@ -171,6 +183,10 @@ from granum.drying.formulas.contact_drying import (
     moisture_dry_basis_after as moisture_dry_basis_after,
     penetration_drying as penetration_drying,
     temperature_outlet_tray as temperature_outlet_tray,
+)
+from granum.drying.formulas.contact_layers import (
+    ContactLayer as ContactLayer,
+    contact_layer_drying as contact_layer_drying,
 )
 from granum.drying.formulas.diffusion import (
     diffusivity_arrhenius as diffusivity_arrhenius,
@@ -379,6 +395,14 @@ from granum.drying.lab_tests.ranking import (
 )
 from granum.drying.lab_tests.thin_layer import (
     ThinLayerTest as ThinLayerTest,
+)
+from granum.drying.product_tables import (
+    Applications as Applications,
+    FoodMoistures as FoodMoistures,
+    Foods as Foods,
+    applications as applications,
+    food_moistures as food_moistures,
+    foods as foods,
 )
 from granum.drying.profile_charts import (
     drying_profile_chart as drying_profile_chart,

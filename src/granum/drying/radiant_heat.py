@@ -49,7 +49,7 @@ class AbstractRadiantHeat(eqx.Module):
     equation=r"q = n\,\frac{F\,\sigma\,(T_r^4 - T^4)}{1/\varepsilon_1 + 1/\varepsilon_2 - 1}",
 )
 class InfraredEmitter(AbstractRadiantHeat):
-    """Emitters of a temperature opposite the web, on one side or on both, grey and as large as the web.
+    """Emitters of a temperature opposite the web, on one side or on both, gray and as large as the web.
 
     ``view_factor`` is the share of what they emit that meets the web; ``electric_efficiency`` what reaches
     the web as heat of what the mains give. By hand, black surfaces at 1000 and 300 K: 56.24 kW/m².

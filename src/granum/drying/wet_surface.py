@@ -6,9 +6,23 @@ from typing import Any
 
 import jax.numpy as jnp
 
+from granum.core.limits import Limit
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
+from granum.streams.units import Limits
+
+AS_SPECIFIED: Limits = {
+    "moisture": Limit("moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978")
+}
+
+
+def as_specified(feed: Stream, moisture: Any) -> dict[str, Any]:
+    """What is measured against ``AS_SPECIFIED`` of a dryer that stops at a moisture: a drier feed stays
+    below it, since nothing is wetted.
+    """
+    drier = jnp.minimum(safe_divide(feed.liquid[0], feed.solid_flow) - moisture, 0.0)
+    return {"moisture": jnp.where(feed.solid_flow > 0.0, drier, 0.0)}
 
 
 def boiled(feed: Stream, moisture: Any, T_product: Any, T_vapor: Any, pressure: Any) -> tuple[Stream, Stream]:

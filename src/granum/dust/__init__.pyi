@@ -4,6 +4,11 @@ from granum.dust.dusts import (
     Explosibility as Explosibility,
     dust_explosibility as dust_explosibility,
 )
+from granum.dust.equipment.air_filter import (
+    AirFilter as AirFilter,
+    AirFilterFigures as AirFilterFigures,
+    Fibered as Fibered,
+)
 from granum.dust.equipment.bag_filter import (
     BagFigures as BagFigures,
     BagFilter as BagFilter,
@@ -63,6 +68,7 @@ from granum.dust.formulas.emission import (
 )
 from granum.dust.formulas.explosion import (
     inert_gas_flow_steady as inert_gas_flow_steady,
+    oxygen_permitted_nfpa69 as oxygen_permitted_nfpa69,
     vent_area_en14491 as vent_area_en14491,
     vent_area_nfpa68 as vent_area_nfpa68,
 )

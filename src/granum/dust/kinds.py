@@ -14,3 +14,4 @@ IonDose = Annotated[Any, Kind("ion concentration times time", "s/m^3", lower=0.0
 DeflagrationIndex = Annotated[
     Any, Kind("deflagration index", "Pa*m/s", lower=0.0, open_lower=True, display=("bar*m/s",))
 ]
+IgnitionEnergy = Annotated[Any, Kind("ignition energy", "J", lower=0.0, open_lower=True, display=("mJ", "J"))]

@@ -304,7 +304,8 @@ def _square_root(matrix: np.ndarray) -> np.ndarray:
     scale = np.sqrt(np.diag(matrix))
     safe = np.where(scale > 0, scale, 1.0)
     weights, vectors = np.linalg.eigh(matrix / np.outer(safe, safe))
-    return scale[:, None] * vectors * np.sqrt(np.maximum(weights, 0.0))
+    # The symmetric root: the sign of a single eigenvector is the machine's choice, and so would the draws be.
+    return scale[:, None] * (vectors * np.sqrt(np.maximum(weights, 0.0))) @ vectors.T
 
 
 def _number(value: float) -> float | None:

@@ -8,7 +8,8 @@ import csv
 import io
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
 from typing import IO, Any
@@ -41,7 +42,8 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
     """The columns of a data file as SI arrays by name; other columns of the file are ignored.
 
     The header names each column and its unit: ``time [min]``, ``filtrate_volume (L)`` or ``time / s``. Lines
-    that start with ``#`` are comments. Missing optional columns are left out.
+    that start with ``#`` are comments, and lines of one cell above the header are titles. Missing optional
+    columns are left out.
     """
     where = _(" in {file}").format(file=getattr(source, "name", source))
     rows = list(_rows(source, where))
@@ -166,14 +168,23 @@ def held(source: Source) -> tuple[Held, tuple[str, ...]]:
     return Held(raw, name), tuple(_heading(str(cell or ""))[0] for cell in first)
 
 
-def as_csv(source: Source) -> str:
+def sheets_of(content: bytes) -> list[str]:
+    """The names of the sheets of a workbook; none of any other file."""
+    if content[:2] != b"PK":
+        return []
+    with _opened(content, "") as workbook:
+        return [sheet.title for sheet in workbook.worksheets]
+
+
+def as_csv(source: Source, sheet: str = "") -> str:
     """A data file as comma-separated text with decimal points, whatever it was; as it is written where a mark
-    may set thousands apart.
+    may set thousands apart. Of a workbook the first sheet, or the one that is named.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     rows = [
-        cells for _line, cells in _rows(source, _(" in {file}").format(file=getattr(source, "name", source)))
+        cells
+        for _line, cells in _rows(source, _(" in {file}").format(file=getattr(source, "name", source)), sheet)
     ]
     doubtful = any(
         isinstance(cell, str) and any(of.fullmatch(cell) for of in _IN_THREES.values())
@@ -259,11 +270,32 @@ def _number(cell: Any) -> float:
     return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else np.nan
 
 
-def _rows(source: Source, where: str) -> Iterable[Row]:
+def _rows(source: Source, where: str, sheet: str = "") -> Iterable[Row]:
+    """Line number and cells of every line that is neither empty nor a comment nor a title above the
+    header.
+    """
+    rows = list(_lines(source, where, sheet))
+    below = next((i for i, (_line, cells) in enumerate(rows) if not _may_be_title(cells)), 0)
+    yield from rows[below if rows and _names_columns(rows[below][1]) else 0 :]
+
+
+def _may_be_title(cells: list[Any]) -> bool:
+    """Whether a line has one cell, which is neither a number nor a column with its unit."""
+    filled = [cell for cell in cells if cell not in (None, "")]
+    return len(filled) == 1 and np.isnan(_number(filled[0])) and _heading(str(filled[0]))[1] is None
+
+
+def _names_columns(cells: list[Any]) -> bool:
+    """Whether a line has several cells, or one with a unit."""
+    filled = [cell for cell in cells if cell not in (None, "")]
+    return len(filled) > 1 or any(_heading(str(cell))[1] is not None for cell in filled)
+
+
+def _lines(source: Source, where: str, sheet: str) -> Iterable[Row]:
     """Line number and cells of every line that is neither empty nor a comment."""
     raw = _bytes(source, where)
     if raw[:2] == b"PK":
-        yield from _sheet(raw, where)
+        yield from _sheet(raw, where, sheet)
         return
     try:
         text = raw.decode("utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
@@ -272,7 +304,8 @@ def _rows(source: Source, where: str) -> Iterable[Row]:
     lines = [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and not _comment(line)]
     if not lines:
         return
-    separator = max("\t;,", key=lambda mark: (lines[0][1].count(mark), mark == ","))
+    header = next((line for _i, line in lines if "[" in line), lines[0][1])  # a title may hold commas
+    separator = max("\t;,", key=lambda mark: (header.count(mark), mark == ","))
     for i, line in lines:
         try:
             cells = [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
@@ -322,7 +355,9 @@ def _not_swollen(raw: bytes, where: str) -> None:
             )
 
 
-def _sheet(raw: bytes, where: str) -> Iterable[Row]:
+@contextmanager
+def _opened(raw: bytes, where: str) -> Iterator[Any]:
+    """A workbook while it is read; what cannot be read is told in one sentence."""
     import zlib
     from zipfile import BadZipFile
 
@@ -330,8 +365,7 @@ def _sheet(raw: bytes, where: str) -> Iterable[Row]:
 
     try:
         _not_swollen(raw, where)
-        sheet = openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True).worksheets[0]
-        rows = list(islice(sheet.iter_rows(values_only=True), MOST_ROWS + 1))
+        yield openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
     except (
         BadZipFile,
         zlib.error,
@@ -348,6 +382,12 @@ def _sheet(raw: bytes, where: str) -> Iterable[Row]:
         raise InputError(
             _("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)
         ) from None
+
+
+def _sheet(raw: bytes, where: str, name: str) -> Iterable[Row]:
+    with _opened(raw, where) as workbook:
+        sheet = workbook[name] if name in workbook.sheetnames else workbook.worksheets[0]
+        rows = list(islice(sheet.iter_rows(values_only=True), MOST_ROWS + 1))
     if len(rows) > MOST_ROWS:
         raise InputError(
             _(

@@ -1,5 +1,9 @@
 """Cake, depth and membrane filtration."""
 
+from granum.filtration.adsorption import (
+    FreundlichIsotherm as FreundlichIsotherm,
+    LangmuirIsotherm as LangmuirIsotherm,
+)
 from granum.filtration.charts import (
     cake_profile_chart as cake_profile_chart,
     filtration_cycle_chart as filtration_cycle_chart,
@@ -28,6 +32,15 @@ from granum.filtration.equipment.cake_filter import (
     Plan as Plan,
     Slurry as Slurry,
 )
+from granum.filtration.equipment.carbon import (
+    Bedded as Bedded,
+    CarbonBed as CarbonBed,
+    CarbonFigures as CarbonFigures,
+    Fluid as Fluid,
+    GasCarbonBed as GasCarbonBed,
+    LiquidCarbonBed as LiquidCarbonBed,
+    Purified as Purified,
+)
 from granum.filtration.equipment.continuous import (
     ContinuousFilter as ContinuousFilter,
     HorizontalBeltFilter as HorizontalBeltFilter,
@@ -42,12 +55,23 @@ from granum.filtration.equipment.deep_bed import (
     DeepBedOutlets as DeepBedOutlets,
     FilterRun as FilterRun,
 )
+from granum.filtration.equipment.gravity import (
+    Batch as Batch,
+    Drained as Drained,
+    GravityFigures as GravityFigures,
+    GravityFilter as GravityFilter,
+)
 from granum.filtration.equipment.membranes import (
     MembraneFigures as MembraneFigures,
     OsmosisFigures as OsmosisFigures,
     Parted as Parted,
     ReverseOsmosis as ReverseOsmosis,
     Ultrafiltration as Ultrafiltration,
+)
+from granum.filtration.formulas.adsorption import (
+    adsorption_rate_lodewyckx as adsorption_rate_lodewyckx,
+    breakthrough_fraction_bohart_adams as breakthrough_fraction_bohart_adams,
+    breakthrough_time_wheeler_jonas as breakthrough_time_wheeler_jonas,
 )
 from granum.filtration.formulas.backwash import (
     backwash_velocity as backwash_velocity,
@@ -105,6 +129,9 @@ from granum.filtration.formulas.expression import (
     consolidation_ratio_shirato as consolidation_ratio_shirato,
     consolidation_ratio_terzaghi as consolidation_ratio_terzaghi,
     consolidation_time as consolidation_time,
+)
+from granum.filtration.formulas.fibers import (
+    fiber_efficiency_lee_liu as fiber_efficiency_lee_liu,
 )
 from granum.filtration.formulas.gas_filters import (
     penetration_fibers as penetration_fibers,
@@ -169,6 +196,9 @@ from granum.filtration.formulas.washing import (
     solute_remaining_reslurry as solute_remaining_reslurry,
     wash_effluent_concentration as wash_effluent_concentration,
 )
+from granum.filtration.lab_tests.adsorption import (
+    AdsorptionTest as AdsorptionTest,
+)
 from granum.filtration.lab_tests.blocking import (
     BlockingTest as BlockingTest,
 )
@@ -205,5 +235,6 @@ from granum.filtration.membranes import (
 from granum.filtration.selection import (
     Separators as Separators,
     air_filter_class as air_filter_class,
+    air_filter_class_particulate as air_filter_class_particulate,
     separator_choice as separator_choice,
 )

@@ -28,3 +28,19 @@ FlowPerWidth = Annotated[Any, Kind("volume flow per width", "m^2/s", lower=0.0, 
 ForcePerWidth = Annotated[
     Any, Kind("force per width", "N/m", lower=0.0, open_lower=True, display=("kN/m", "N/mm"))
 ]
+LoadingScale = Annotated[
+    Any, Kind("mass adsorbed per mass", "kg/kg", lower=1e-9, upper=5.0, display=("mg/g", "g/kg", "percent"))
+]
+AdsorptionAffinity = Annotated[
+    Any, Kind("adsorption affinity", "m^3/kg", lower=1e-9, upper=1e12, display=("L/g", "L/mg"))
+]
+AdsorptionExponent = Annotated[
+    Any, Kind("exponent of the adsorption", "dimensionless", lower=0.01, upper=5.0)
+]
+ReferenceConcentration = Annotated[
+    Any,
+    Kind("mass concentration", "kg/m^3", lower=1e-12, upper=1e4, display=("mg/L", "g/L", "ug/L", "mg/m^3")),
+]
+AdsorptionRate = Annotated[
+    Any, Kind("adsorption rate coefficient", "1/s", lower=1e-7, upper=1e6, display=("1/min", "1/s", "1/hour"))
+]

@@ -15,6 +15,7 @@ from granum.core.kinds import KINDS
 from granum.core.units import show
 from granum.flowsheet.plan import Block, Link
 from granum.flowsheet.symbols import symbol_of
+from granum.streams.names import port_label, pretty
 from granum.streams.stream import main_phase
 
 ROW, BOX, LANE, MARGIN, LETTER, TRACK, PITCH = 124, 60, 22, 16, 6.6, 9, 20
@@ -64,11 +65,8 @@ def _columns(line: Drawable) -> dict[str, int]:
 
 def _label(k: Link) -> str:
     """The name of a stream as the diagram prints it."""
-    unit, _dot, port = k.name.partition(".")
-    if not port:
-        return k.name.replace("_", " ")
-    port = _(port.replace("_", " "))
-    return f"{unit} · {port}".replace("_", " ") if len(k.name) <= LONGEST else port
+    _unit, _dot, port = k.name.partition(".")
+    return port_label(port) if port and len(k.name) > LONGEST else pretty(k.name)
 
 
 def _wide(text: str) -> float:
@@ -312,15 +310,15 @@ def _unit(sheet: _Sheet, unit: str) -> str:
         f'<g class="symbol" fill="white" stroke="#1c2430" stroke-width="1.5" '
         f'stroke-linejoin="round">{symbol_of(key)}</g>'
         f'<text x="{BOX / 2:g}" y="{BOX + 14}" text-anchor="middle" font-size="12" font-weight="600" '
-        f'fill="#1c2430">{escape(unit.replace("_", " "))}</text></g>'
+        f'fill="#1c2430">{escape(pretty(unit))}</text></g>'
     )
 
 
 def _open_inlet(sheet: _Sheet, one: Loose) -> str:
     x, y = sheet.inlet(one.unit, one)
     start = x - 16.0
-    port = _(one.port.replace("_", " "))
-    told = _("open inlet '{port}' of {unit}").format(port=port, unit=one.unit.replace("_", " "))
+    port = port_label(one.port)
+    told = _("open inlet '{port}' of {unit}").format(port=port, unit=pretty(one.unit))
     return (
         f'<g class="inlet{"" if one.needed else " may"}" data-inlet="{escape(f"{one.unit}.{one.port}")}" '
         f'tabindex="0" role="button"><title>{escape(told)}</title>'
@@ -334,7 +332,7 @@ def _open_inlet(sheet: _Sheet, one: Loose) -> str:
 
 def _plus(sheet: _Sheet, k: Link) -> str:
     _path, _at, (x, y) = sheet.course(k)
-    told = _("put equipment at {outlet}").format(outlet=k.origin.replace("_", " ").replace(".", " · "))
+    told = _("put equipment at {outlet}").format(outlet=pretty(k.origin))
     return _plus_at(x + 12.0, y, k.origin, told)
 
 

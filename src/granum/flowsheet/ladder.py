@@ -13,7 +13,7 @@ from granum.core.units import format_number, show
 from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.solving import neighbor, no_stream, nothing_known, solve, unknowns
+from granum.flowsheet.solving import QUICK_METHOD, neighbor, no_stream, nothing_known, solve, unknowns
 from granum.flowsheet.specifications import (
     Designed,
     Target,
@@ -142,12 +142,18 @@ def climb(
         left = beginning(sheet, targets, found.designed)
         if targets and not np.all(found.findings.finite):
             # lost where there is no solution: from the values that the line has
-            settled = _in_passes(_quickly, Anderson(), sheet, (), QUICK, watch)
+            settled = _in_passes(_quickly, QUICK_METHOD, sheet, (), QUICK, watch)
             left = beginning(sheet, (), settled.designed)._replace(near=beginning(sheet, targets).near)
-        return _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, left)
+        tried = _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, left)
+        given_up = watch is not None and (watch.stopped or watch.late)
+        if targets and not bool(tried.designed.solution.converged) and not given_up:
+            # near rest, a loop through which nearly all goes round holds Newton's steps short
+            empty = beginning(sheet, targets)
+            tried = _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, empty)
+        return tried
 
     most = QUICK * (1 + len(targets))
-    found, wrong = attempt(lambda: _in_passes(_quickly, Anderson(), sheet, targets, most, watch))
+    found, wrong = attempt(lambda: _in_passes(_quickly, QUICK_METHOD, sheet, targets, most, watch))
     late = watch is not None and (watch.stopped or watch.late)
     if wrong and not late and _may_help(sheet, targets, wrong):
         other, told = attempt(exactly)

@@ -5,7 +5,7 @@ audited.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -15,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import notebooks, record_steps
+from granum.core.conversion import convert
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.formulas import Result
 from granum.core.i18n import _
@@ -35,6 +36,7 @@ from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution
 from granum.flowsheet.specifications import Target, varied
+from granum.flowsheet.stream_figures import changed
 from granum.flowsheet.utilities import (
     FIGURES,
     WATER,
@@ -147,10 +149,24 @@ class Line:
         return course
 
     def with_values(self, **values: Any) -> Line:
-        """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``,
-        SI.
+        """The same line with other parameters of units and other figures of feeds, SI or text with a unit:
+        ``line.with_values(**{"crystallizer.temperature": "10 degC", "brine.liquid_flow": 0.7})``.
         """
-        return replace(self, sheet=self.sheet.with_values(values))
+        given = {
+            path: convert(value, varied(self.sheet, path)) if isinstance(value, str) else value
+            for path, value in values.items()
+        }
+        figures = {path: value for path, value in given.items() if self._is_figure(path)}
+        own = {path: value for path, value in given.items() if path not in figures}
+        return replace(self, sheet=changed(self.sheet.with_values(own), figures))
+
+    def _is_figure(self, path: str) -> bool:
+        """Whether a path means what a feed amounts to, in place of an array that it holds."""
+        head, _dot, word = path.partition(".")
+        if head not in self.sheet.feeds or word in (f.name for f in fields(Stream)):
+            return False
+        varied(self.sheet, path)  # refuses what is none
+        return True
 
 
 @dataclass(frozen=True)
@@ -277,7 +293,9 @@ class Run:
 
     @cached_property
     def product(self) -> str:
-        """Name of the main product: the stream leaving with most solid, without solid that with most mass."""
+        """Name of the main product: the stream leaving with most solid; without solid that with most of what
+        is dissolved, then of liquid, then of mass.
+        """
         place = compiled(main_product)(*as_arrays((self.sheet, self.streams)))
         return self.sheet.products[int(place)]
 

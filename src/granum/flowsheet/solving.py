@@ -32,6 +32,8 @@ MISSES = 1e-2  # what a wanted figure may miss is so much more than what a torn 
 NEARLY = 1e-5  # a loop so near to rest is not what is wrong when a figure cannot be had
 
 Method = Anderson | Continuation | Chords
+QUICK_METHOD = Anderson(window=8)
+"""Whole lines remember more passes than a unit does: a pass costs far more than what is learned from it."""
 
 
 class Solution(NamedTuple):
@@ -168,7 +170,7 @@ def solve(
     *,
     sheets: bool | Collection[str] = False,
     wanted: Wanted | None = None,
-    method: Method = Anderson(),
+    method: Method = QUICK_METHOD,
     max_steps: int = 200,
     known: tuple[Any, ...] | None = None,
 ) -> Solution:
@@ -268,7 +270,7 @@ def nothing_known(line: Flowsheet, method: Method, among: frozenset[str], count:
 
 def unknowns(line: Flowsheet, among: frozenset[str], count: int) -> int:
     """How many numbers are sought together at most."""
-    return max((size for _how, size in _sought_at_once(line, Anderson(), among, count)), default=0)
+    return max((size for _how, size in _sought_at_once(line, QUICK_METHOD, among, count)), default=0)
 
 
 def neighbor(line: Flowsheet, known: tuple[Any, ...], among: frozenset[str], count: int) -> tuple[Any, ...]:

@@ -20,11 +20,13 @@ from granum.core.parameters import Parameter, outputs_of
 from granum.core.utilities import COOLING, ELECTRICITY, HEAT, carrier, purpose, sort_of
 from granum.costs.formulas.economics import energy_cost_rate, material_cost_rate
 from granum.costs.formulas.emissions import CARRIERS, emission_factor, greenhouse_gas_rate
+from granum.costs.tables import emissions
 from granum.drying.balances.indices import energy_consumption_ratio
 from granum.flowsheet.sheet import Flowsheet
 from granum.numerics.smooth import safe_divide
 from granum.streams.equipment.movers import Fan, Pump
 from granum.streams.stream import Stream
+from granum.streams.utilities import COLD
 
 GAS_OUTLETS = ("exhaust", "vapor", "gas", "warmed_air")
 HOTTEST_DRYING = 453.15  # K, up to which the notes give a heat of vaporization
@@ -32,11 +34,14 @@ DRYING = "evaporation_rate"  # the figure of a unit that says how much water it 
 
 
 class Totals(NamedTuple):
-    """What a line takes in all; energy is electricity and heat. Not a number without water removed."""
+    """What a line takes in all; energy is electricity, heat, and the electricity that makes the cold. Not a
+    number without water removed.
+    """
 
     electric_power: Power
     heat_input: Power
     cooling_input: Power
+    refrigeration_power: Power
     energy_per_product: SpecificEnergy
     evaporation_rate: MassFlow
     energy_per_water: SpecificEnergy
@@ -136,8 +141,11 @@ def totals(
         return sum(rows, jnp.zeros(()))
 
     electricity, heat, cold = (total(sort) for sort in (ELECTRICITY, HEAT, COOLING))
-    energy = electricity + heat
     taken = by_carrier(line, uses)
+    freezing = sum(
+        (x * emissions()[what].electricity for what, x in taken.items() if what in COLD), jnp.zeros(())
+    )
+    energy = electricity + heat + freezing
     gas = sum(
         (
             greenhouse_gas_rate.function(x, emission_factor.function(what))
@@ -153,6 +161,7 @@ def totals(
         electricity,
         heat,
         cold,
+        freezing,
         safe_divide(energy, made),
         water,
         per_water,
@@ -165,8 +174,8 @@ def totals(
 def streams_by_product(
     line: Flowsheet, streams: Mapping[str, Stream], figure: Callable[[Stream], Any]
 ) -> Any:
-    """A figure of the main product: the stream leaving the line with most solid, or where none has any, with
-    most mass.
+    """A figure of the main product: the stream leaving the line with most solid; where none has any, with
+    most of what is dissolved, else with most liquid, else with most mass.
     """
     return jnp.stack([figure(streams[name]) for name in line.products])[main_product(line, streams)]
 
@@ -175,7 +184,15 @@ def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
     """Which of the line's products is the main one, by its place among them; may be traced."""
     leaving = [streams[name] for name in line.products]
     solid, mass = (jnp.stack([getattr(s, n) for s in leaving]) for n in ("solid_flow", "mass_flow"))
-    return jnp.argmax(jnp.where(jnp.sum(solid) > 0.0, solid, mass))
+    liquid = jnp.stack([s.liquid for s in leaving])
+    whole, trace = jnp.sum(liquid, axis=1), 1e-9 * jnp.sum(mass)
+    # of a mixture without liquids nothing is the solvent
+    solvent = jnp.argmax(jnp.sum(liquid, axis=0)) if liquid.shape[1] else 0
+    dissolved = whole - liquid @ (jnp.arange(liquid.shape[1]) == solvent)
+    worth = mass
+    for matter in (whole, dissolved, solid):
+        worth = jnp.where(jnp.sum(matter) > trace, matter, worth)
+    return jnp.argmax(worth)
 
 
 def price_parameter(name: str) -> Parameter:

@@ -4,6 +4,10 @@ from granum.humid_gas.charts import (
     mollier_chart as mollier_chart,
     psychrometric_chart as psychrometric_chart,
 )
+from granum.humid_gas.dry_air import (
+    AirComposition as AirComposition,
+    air_composition as air_composition,
+)
 from granum.humid_gas.formulas.processes import (
     CombustionGas as CombustionGas,
     Duty as Duty,

@@ -189,7 +189,7 @@ class _Sheet:
         beyond: float = 0.0,
         every: int = 1,
     ) -> None:
-        """All lines of one quantity, every so many of them labelled."""
+        """All lines of one quantity, every so many of them labeled."""
         first = True
         for i, value in enumerate(values):
             T, w = self.lines.line(kind, float(value))

@@ -12,6 +12,7 @@ from granum.materials.common_ion import (
 from granum.materials.correlation import (
     Correlation as Correlation,
     Missing as Missing,
+    Owner as Owner,
     Tabulated as Tabulated,
 )
 from granum.materials.fluids import (
@@ -112,6 +113,9 @@ from granum.materials.formulas.water_transport import (
     thermal_conductivity_iapws as thermal_conductivity_iapws,
     water_conductivity as water_conductivity,
     water_viscosity as water_viscosity,
+)
+from granum.materials.ions import (
+    Ions as Ions,
 )
 from granum.materials.library import (
     Library as Library,

@@ -19,8 +19,9 @@ from granum.core.formulas import Formula
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.unit_table import rows
+from granum.core.units import show
 from granum.materials.activities import ElectrolyteActivity, NoActivity, SucroseActivity
-from granum.materials.correlation import Correlation, Missing, Tabulated
+from granum.materials.correlation import Correlation, Missing, Owner, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
 from granum.materials.formulas.solutions import (
     dynamic_viscosity_laliberte,
@@ -56,6 +57,11 @@ _KIND_OF = {
     "heat_capacity": "HeatCapacity",
     "conductivity": "ThermalConductivity",
 }
+CONDENSED = ("density", "heat_capacity", "liquid_density", "liquid_heat_capacity")
+PLAUSIBLE = {
+    "Density": (10.0, 3e4),
+    "HeatCapacity": (50.0, 2e4),
+}  # of solids and liquids, from foams to osmium
 _BY_AMOUNT = {"kg/m^3": ("mol/m^3", 1), "J/kg": ("J/mol", -1), "J/(kg*K)": ("J/(mol*K)", -1)}
 """The unit of a property given per amount of substance, and the power of the molar mass that it lacks."""
 _FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_fields)
@@ -106,21 +112,40 @@ def _factor(unit: str, kind_name: str, molar_mass: float, owner: str) -> float:
     )
 
 
-def _property(entry: PropertyEntry | None, name: str, owner: str, molar_mass: float) -> Correlation | Missing:
-    whole = f"{owner}: {name.replace('_', ' ')}"
+def _property(
+    entry: PropertyEntry | None, name: str, of: tuple[str, str], molar_mass: float
+) -> Correlation | Missing:
+    """A property of a material, by its name and its French name."""
+    whole = Owner.of_property(of[0], name.replace("_", " "), of[1])
     if entry is None:
         return Missing(whole)
-    factor = _factor(entry.unit, _KIND_OF[name], molar_mass, whole)
+    factor = _factor(entry.unit, _KIND_OF[name], molar_mass, whole.label)
     low, high = entry.range or (0.0, inf)
     if entry.form is None:
         assert entry.value is not None
-        return Correlation(_form("polynomial", whole), (entry.value,), factor, low, high, whole, entry.source)
+        least, most = PLAUSIBLE.get(_KIND_OF[name], (0.0, inf))
+        if name in CONDENSED and not least < entry.value * factor < most:
+            kind = KINDS[_KIND_OF[name]]
+            raise InputError(
+                _("{owner} = {value} is outside {least} … {most}: is it in the unit that is meant?").format(
+                    owner=whole.label,
+                    value=show(entry.value * factor, kind),
+                    least=show(least, kind),
+                    most=show(most, kind),
+                ),
+                name=name,
+            )
+        return Correlation(
+            _form("polynomial", whole.label), (entry.value,), factor, low, high, whole, entry.source
+        )
     coefficients = None if entry.coefficients is None else tuple(entry.coefficients)
-    form = _form(entry.form, whole)
+    form = _form(entry.form, whole.label)
     needs = any(p.name == "coefficients" for p in form.card.parameters)
     if needs == (coefficients is None):
         word = _("needs 'coefficients'") if needs else _("takes no 'coefficients'")
-        raise InputError(_("Form '{form}' {word} ({owner}).").format(form=entry.form, word=word, owner=whole))
+        raise InputError(
+            _("Form '{form}' {word} ({owner}).").format(form=entry.form, word=word, owner=whole.label)
+        )
     return Correlation(form, coefficients, factor, low, high, whole, entry.source)
 
 
@@ -130,7 +155,10 @@ def _or_nan(value: float | None) -> float:
 
 def fluid_of(key: str, entry: FluidEntry) -> Fluid:
     """A fluid from its entry."""
-    made = {name: _property(getattr(entry, name), name, key, entry.molar_mass) for name in _FLUID_PROPERTIES}
+    made = {
+        name: _property(getattr(entry, name), name, (key, entry.fr), entry.molar_mass)
+        for name in _FLUID_PROPERTIES
+    }
     return Fluid(
         name=key,
         french=entry.fr,
@@ -159,7 +187,7 @@ def _flammability(entry: FluidEntry) -> Flammability | None:
 def solid_of(key: str, entry: SolidEntry) -> Solid:
     """A solid from its entry."""
     mass = _or_nan(entry.molar_mass)
-    made = {name: _property(getattr(entry, name), name, key, mass) for name in _SOLID_PROPERTIES}
+    made = {name: _property(getattr(entry, name), name, (key, entry.fr), mass) for name in _SOLID_PROPERTIES}
     return Solid(
         name=key,
         french=entry.fr,
@@ -194,21 +222,26 @@ def salt_of(key: str, entry: SaltEntry) -> Salt:
         cation_charge=float(cation.charge),
         anion_charge=float(anion.charge),
         solubility_product=entry.solubility_product,
+        enthalpy_of_dissolution=entry.enthalpy_of_dissolution,
         source=entry.source,
     )
 
 
-def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid, crystal: Solid) -> Branch:
-    whole = f"{owner}: {_('solubility')} ({entry.crystal})"
+def _branch(
+    entry: BranchEntry, of: tuple[str, str], molar_mass: float, solvent: Fluid, crystal: Solid
+) -> Branch:
+    whole = Owner.of_property(of[0], "solubility", of[1], entry.crystal, crystal.french)
     if entry.basis not in BASES:
-        raise unknown_name(_("Basis of solubility"), entry.basis, BASES, _("for {owner}").format(owner=whole))
+        raise unknown_name(
+            _("Basis of solubility"), entry.basis, BASES, _("for {owner}").format(owner=whole.label)
+        )
     if entry.form == "table":
         celsius, ratios = _printed(entry.table)
         with jax.ensure_compile_time_eval():
             law = Tabulated.through(celsius + ZERO_CELSIUS, ratios, *entry.range, whole, entry.source)
     else:
         law = Correlation(
-            _form(entry.form, whole),
+            _form(entry.form, whole.label),
             tuple(entry.coefficients or ()),
             entry.factor,
             *entry.range,
@@ -259,7 +292,7 @@ def _misfit(branch: Branch, table: list[tuple[float, float]]) -> Any:
 def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Solid, ...]) -> SoluteSystem:
     """A solute–solvent system from its entry, its solvent and the crystals of its branches."""
     branches = tuple(
-        _branch(b, key, entry.molar_mass, solvent, crystal)
+        _branch(b, (key, entry.fr), entry.molar_mass, solvent, crystal)
         for b, crystal in zip(entry.branches, crystals, strict=True)
     )
     dry = branches[-1].crystal
@@ -290,7 +323,8 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         solvent=solvent,
         branches=branches,
         density_law=density or AdditiveVolumes(solvent.liquid_density, dry.density),
-        viscosity_law=viscosity or NoLaw(Missing(f"{key}: {_('viscosity of the solution')}")),
+        viscosity_law=viscosity
+        or NoLaw(Missing(Owner.of_property(key, "viscosity of the solution", entry.fr))),
         heat_capacity_law=heat_capacity,
         solute_heat_capacity=nan,
         activity_law=_activity(key, entry),
@@ -302,7 +336,7 @@ def _activity(key: str, entry: SoluteEntry) -> Any:
     """The law of water activity of a solute, or what says that there is none."""
     found = entry.water_activity
     if found is None:
-        return NoActivity(Missing(f"{key}: {_('water activity of the solution')}"))
+        return NoActivity(Missing(Owner.of_property(key, "water activity of the solution", entry.fr)))
     if found.form == "starzak_peacock":
         return SucroseActivity(entry.molar_mass)
 

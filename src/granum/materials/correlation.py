@@ -14,7 +14,7 @@ from granum.core.compiling import once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.conversion import convert
 from granum.core.errors import ApplicabilityError
-from granum.core.i18n import _
+from granum.core.i18n import _, current_language
 from granum.core.kinds import Kind, kind_of
 from granum.core.kinds import MassRatio as _MassRatio
 from granum.core.kinds import Pressure as _Pressure
@@ -33,6 +33,36 @@ def _reader(name: str, annotation: Any) -> Callable[[Any], Any]:
 as_temperature = _reader("temperature", _Temperature)
 as_pressure = _reader("pressure", _Pressure)
 as_solute_ratio = _reader("solute_per_solvent", _MassRatio)
+
+
+class Owner(str):
+    """Material and property that a message is about, ``water: liquid density``; ``label`` says it in the
+    language of whoever reads it.
+    """
+
+    french: str
+    of: str
+    of_french: str
+
+    @classmethod
+    def of_property(
+        cls, material: str, what: str, french: str = "", of: str = "", of_french: str = ""
+    ) -> Owner:
+        """A property of a material, of one of its crystals where ``of`` names it."""
+        made = cls(f"{material}: {what}" + (f" ({of})" if of else ""))
+        made.french, made.of, made.of_french = french, of, of_french
+        return made
+
+    @property
+    def label(self) -> str:
+        """As a message names it."""
+        material, _colon, what = self.partition(": ")
+        french = current_language() == "fr"
+        named, of = (self.french if french else "") or material, (self.of_french if french else "") or self.of
+        told = _("{material}: {what}").format(
+            material=named, what=_(what.removesuffix(f" ({self.of})") if self.of else what)
+        )
+        return f"{told} ({of})" if of else told
 
 
 class Correlation(eqx.Module):
@@ -54,7 +84,7 @@ class Correlation(eqx.Module):
     factor: float
     low: float = eqx.field(static=True)
     high: float = eqx.field(static=True)
-    owner: str = eqx.field(static=True)
+    owner: Owner = eqx.field(static=True)
     source: str = eqx.field(static=True)
 
     def __call__(self, temperature: Any) -> Any:
@@ -98,7 +128,7 @@ class Tabulated(eqx.Module):
     """-1/T, ln y and its slope, by rising temperature."""
     low: float = eqx.field(static=True)
     high: float = eqx.field(static=True)
-    owner: str = eqx.field(static=True)
+    owner: Owner = eqx.field(static=True)
     source: str = eqx.field(static=True)
 
     @classmethod
@@ -129,14 +159,14 @@ def flag_outside(law: Correlation | Tabulated, temperature: Any) -> None:
 class Missing(eqx.Module):
     """Stands where a material has no value for a property; says so when called."""
 
-    owner: str = eqx.field(static=True)
+    owner: Owner = eqx.field(static=True)
 
     def __call__(self, *_values: Any) -> Any:
         raise ApplicabilityError(
             _(
-                "The library has no value for {owner}. Load a TOML file that has one with "
-                "granum.materials.load."
-            ).format(owner=self.owner)
+                "The library has no value for {owner}. State it with the material, in the case or in a "
+                "materials file."
+            ).format(owner=self.owner.label)
         )
 
     value = check_range = polynomial = __call__

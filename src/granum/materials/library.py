@@ -7,19 +7,23 @@ useful solid::
 
     [solid.zeolite]
     density = { value = 2150.0, source = "measured by helium pycnometry, 2024" }
-    heat_capacity = { value = 900.0, source = "supplier" }
+    heat_capacity = "0.9 kJ/(kg K)"
 """
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
+
+import tomlkit
 
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, reason_of, unknown_name
@@ -44,25 +48,27 @@ _SPELLINGS = {
 
 
 @dataclass(frozen=True)
-class _File:
-    """The text of a materials file, and where it stands, for messages."""
+class _Own:
+    """The text of tables of materials, and where they stand, for messages."""
 
     text: str
-    path: Path = field(compare=False)
+    place: str = field(compare=False)
 
     @classmethod
-    def read(cls, path: Path) -> _File:
+    def of(cls, given: str | Path | Mapping[str, Any]) -> _Own:
+        """A file, or the tables of a case."""
+        if isinstance(given, Mapping):
+            return cls(tomlkit.dumps(given), _("case"))
+        place = _("Materials file {file}").format(file=given)
         try:
-            return cls(path.read_text(encoding="utf-8"), path)
+            return cls(Path(given).read_text(encoding="utf-8"), place)
         except OSError as problem:
             raise InputError(
-                _("Materials file {file} cannot be read: {reason}.").format(
-                    file=path, reason=reason_of(problem)
-                )
+                _("{place} cannot be read: {reason}.").format(place=place, reason=reason_of(problem))
             ) from problem
         except UnicodeDecodeError as problem:
             raise InputError(
-                _("Materials file {file} is not valid TOML: {reason}.").format(file=path, reason=problem)
+                _("{place} is not valid TOML: {reason}.").format(place=place, reason=problem)
             ) from problem
 
     def content(self) -> dict[str, Any]:
@@ -70,7 +76,7 @@ class _File:
             return read_toml(self.text)
         except InputError as problem:
             raise InputError(
-                _("Materials file {file} is not valid TOML: {reason}.").format(file=self.path, reason=problem)
+                _("{place} is not valid TOML: {reason}.").format(place=self.place, reason=problem)
             ) from problem
 
 
@@ -83,15 +89,15 @@ class Library:
     same names for other materials.
     """
 
-    files: tuple[_File, ...] = ()
+    own: tuple[_Own, ...] = ()
 
     def __repr__(self) -> str:
-        return f"Library({sha256(repr([f.text for f in self.files]).encode()).hexdigest() if self.files else ''})"  # noqa: E501
+        return f"Library({sha256(repr([o.text for o in self.own]).encode()).hexdigest() if self.own else ''})"
 
-    def with_files(self, paths: Iterable[str | Path]) -> Library:
-        """The library with the materials of further files, all of which have been made once."""
-        given = dict.fromkeys((*self.files, *(_File.read(Path(path)) for path in paths)))
-        library = Library(tuple(given)) if len(given) > len(self.files) else self
+    def with_own(self, further: Iterable[str | Path | Mapping[str, Any]]) -> Library:
+        """The library with the materials of further files or tables, all of which have been made once."""
+        given = dict.fromkeys((*self.own, *map(_Own.of, further)))
+        library = Library(tuple(given)) if len(given) > len(self.own) else self
         for sort in _SORTS:
             for word in library._entries[sort].keys() - self._entries[sort].keys():
                 getattr(library, sort)(word)
@@ -99,11 +105,11 @@ class Library:
 
     @cached_property
     def _entries(self) -> Entries:
-        if not self.files:
+        if not self.own:
             return _shipped()
         known = {sort: dict(found) for sort, found in _shipped().items()}
-        for file in self.files:
-            _merge(known, file.content(), file.path)
+        for own in self.own:
+            _merge(known, own.content(), own.place)
         return known
 
     @cached_property
@@ -111,13 +117,14 @@ class Library:
         return {}
 
     def _find(self, sort: str, name: str, build: Callable[[str, Any], Any]) -> Any:
-        key, entry = self._entry(sort, name)
+        key, entry = self.entry(sort, name)
         if (sort, key) not in self._made:
             shipped = key in _shipped()[sort] and self is not SHIPPED
             self._made[sort, key] = getattr(SHIPPED, sort)(key) if shipped else build(key, entry)
         return self._made[sort, key]
 
-    def _entry(self, sort: str, name: str) -> tuple[str, Any]:
+    def entry(self, sort: str, name: str) -> tuple[str, Any]:
+        """The name in the library and the entry of what a person calls a material."""
         known = self._entries[sort]
         for word in dict.fromkeys((name, name.strip(), _respelled(name.strip()))):
             found = (
@@ -194,7 +201,7 @@ def _shipped() -> Entries:
     return found
 
 
-def _merge(into: Entries, content: dict[str, Any], where: str | Path) -> None:
+def _merge(into: Entries, content: dict[str, Any], where: str) -> None:
     """Add a file's checked entries, and their aliases as references to them."""
     parsed = read_materials(content, where)
     for sort in into:
@@ -202,8 +209,8 @@ def _merge(into: Entries, content: dict[str, Any], where: str | Path) -> None:
             for word in dict.fromkeys((name, *entry.aliases)):
                 if word in into[sort]:
                     raise InputError(
-                        _("'{name}' in {file} is already the name of a {sort}; choose another.").format(
-                            name=word, file=where, sort=sort
+                        _("{place}: '{name}' is already the name of a {sort}; choose another.").format(
+                            place=where, name=word, sort=sort
                         ),
                         name=word,
                     )
@@ -226,19 +233,32 @@ def _by_formula(known: dict[str, Any], word: str) -> Any:
 
 SHIPPED = Library()
 _session = [SHIPPED]
+_around: ContextVar[Library | None] = ContextVar("materials", default=None)
 
 
 def session() -> Library:
-    """What is asked for by name alone: the materials that come with Granum and those added with ``load``."""
-    return _session[0]
+    """What is asked for by name alone: the materials that come with Granum and those added with ``load``, and
+    within ``including`` those of a case.
+    """
+    return _around.get() or _session[0]
+
+
+@contextmanager
+def including(library: Library) -> Iterator[None]:
+    """A library in place of the session's, for what is asked by name alone in the meantime."""
+    token = _around.set(library)
+    try:
+        yield
+    finally:
+        _around.reset(token)
 
 
 def load(path: str | Path) -> list[str]:
     """Add the materials of a TOML file to the library for this session; returns their names. A case file
     names its own files instead.
     """
-    _session[0] = session().with_files([path])
-    content = _File.read(Path(path)).content()
+    _session[0] = _session[0].with_own([path])
+    content = _Own.of(path).content()
     return sorted({name for sort in _SORTS for name in content.get(sort, {})})
 
 

@@ -7,14 +7,19 @@ from typing import Any
 import equinox as eqx
 import jax.numpy as jnp
 
+from granum.core.constants import GAS_CONSTANT
 from granum.core.i18n import _, current_language
-from granum.materials.formulas.precipitation import activity_coefficient_davies, salt_molality_from_product
+from granum.materials.formulas.precipitation import (
+    ROOM,
+    activity_coefficient_davies,
+    salt_molality_from_product,
+)
 from granum.numerics import safe_log
 
 
 class Salt(eqx.Module):
-    """A salt of one cation and one anion, ``salt("barium sulfate")``; molalities in mol per kg of water,
-    25 °C.
+    """A salt of one cation and one anion, ``salt("barium sulfate")``; molalities in mol per kg of
+    water.
 
     Parameters
     ----------
@@ -22,7 +27,9 @@ class Salt(eqx.Module):
     cation, anion: the ions.
     cation_count, anion_count: of each in the formula.
     cation_charge, anion_charge: signed charge numbers.
-    solubility_product: on activities.
+    solubility_product: on activities, at 25 °C.
+    enthalpy_of_dissolution: J per mol of formula units, by which the product changes with temperature; None
+        where the library has none: the product is then that of 25 °C.
     source: key in the bibliography.
     """
 
@@ -36,6 +43,7 @@ class Salt(eqx.Module):
     cation_charge: float
     anion_charge: float
     solubility_product: float
+    enthalpy_of_dissolution: float | None
     source: str = eqx.field(static=True)
 
     @property
@@ -48,14 +56,24 @@ class Salt(eqx.Module):
         """Ions in the formula."""
         return self.cation_count + self.anion_count
 
-    def saturation_index(self, cation_molality: Any, anion_molality: Any, ionic_strength: Any) -> Any:
+    def product_at(self, temperature: Any) -> Any:
+        """Solubility product at a temperature, van 't Hoff."""
+        heat = 0.0 if self.enthalpy_of_dissolution is None else self.enthalpy_of_dissolution
+        return self.solubility_product * jnp.exp(heat / GAS_CONSTANT * (1.0 / ROOM - 1.0 / temperature))
+
+    def saturation_index(
+        self, cation_molality: Any, anion_molality: Any, ionic_strength: Any, temperature: Any = ROOM
+    ) -> Any:
         """Decimal logarithm of the ion activity product over the solubility product."""
-        cation = activity_coefficient_davies(self.cation_charge, ionic_strength) * cation_molality
-        anion = activity_coefficient_davies(self.anion_charge, ionic_strength) * anion_molality
+        charges, I, T = (self.cation_charge, self.anion_charge), ionic_strength, temperature
+        cation, anion = (
+            activity_coefficient_davies(z, I, T) * m
+            for z, m in zip(charges, (cation_molality, anion_molality), strict=True)
+        )
         logs = (
             self.cation_count * safe_log(cation)
             + self.anion_count * safe_log(anion)
-            - jnp.log(self.solubility_product)
+            - jnp.log(self.product_at(temperature))
         )
         return logs / jnp.log(10.0)
 

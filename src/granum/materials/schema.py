@@ -5,22 +5,33 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from granum.core.errors import InputError
+from granum.core.conversion import convert
+from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
+from granum.core.written import read_number
 
 
 class _Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
+def _in_si(given: Any) -> Any:
+    """A molar mass as a number, or as text with its unit."""
+    return convert(given, Parameter("molar_mass", KINDS["MolarMass"])) if isinstance(given, str) else given
+
+
+MolarMass = Annotated[float, BeforeValidator(_in_si), Field(gt=0, lt=10)]
+
+
 class PropertyEntry(_Strict):
     """One property: a constant ``value``, or a ``form`` with ``coefficients``; ``range`` in K; ``unit`` of
-    the printed value.
+    the printed value. A constant may stand alone, as text with its unit or as a number in SI.
     """
 
     value: float | None = None
@@ -29,6 +40,16 @@ class PropertyEntry(_Strict):
     range: tuple[float, float] | None = None
     unit: str = ""
     source: str
+
+    @model_validator(mode="before")
+    @classmethod
+    def _alone(cls, given: Any) -> Any:
+        if isinstance(given, bool) or not isinstance(given, (str, int, float)):
+            return given
+        number, unit = (given, "") if not isinstance(given, str) else read_number(given) or (None, "")
+        if number is None:
+            raise ValueError(_("write a constant as a number with its unit, such as '1400 kg/m3'"))
+        return {"value": number, "unit": unit, "source": "stated"}
 
     @model_validator(mode="after")
     def _one_way(self) -> PropertyEntry:
@@ -71,7 +92,7 @@ class FlammabilityEntry(_Strict):
 class FluidEntry(_Named):
     """A pure fluid. Every property is optional: what is missing says so when it is asked for."""
 
-    molar_mass: float = Field(gt=0, lt=10)
+    molar_mass: MolarMass
     critical_temperature: float | None = Field(default=None, gt=0)
     critical_pressure: float | None = Field(default=None, gt=0)
     diffusion_volume: float | None = Field(default=None, gt=0)
@@ -92,7 +113,7 @@ class FluidEntry(_Named):
 class SolidEntry(_Named):
     """A solid."""
 
-    molar_mass: float | None = Field(default=None, gt=0, lt=10)
+    molar_mass: MolarMass | None = None
     sphericity: float | None = Field(default=None, gt=0, le=1)
     mohs_hardness: float | None = Field(default=None, ge=0, le=10)
     dust: str = ""
@@ -170,7 +191,7 @@ class ActivityEntry(_Strict):
 class SoluteEntry(_Named):
     """A solute in a solvent."""
 
-    molar_mass: float = Field(gt=0, lt=10)
+    molar_mass: MolarMass
     solvent: str = "water"
     branches: list[BranchEntry] = Field(min_length=1)
     density: list[float] | None = Field(default=None, min_length=5, max_length=5)
@@ -205,6 +226,7 @@ class SaltEntry(_Named):
     cation: IonEntry
     anion: IonEntry
     solubility_product: float = Field(gt=0)
+    enthalpy_of_dissolution: float | None = None
     source: str
 
     @model_validator(mode="after")
@@ -223,17 +245,34 @@ class MaterialsFile(_Strict):
     salt: dict[str, SaltEntry] = {}
 
 
-def read_materials(content: dict[str, Any], where: str | Path) -> MaterialsFile:
-    """The checked content of a materials file, or one clear error."""
+def _fields_of(table: list[str]) -> list[str]:
+    """The keys that a table of materials may have."""
+    sorts = MaterialsFile.model_fields
+    if not table:
+        return list(sorts)
+    if len(table) == 2:
+        return list(get_args(sorts[table[0]].annotation)[1].model_fields)
+    return list((BranchEntry if "branches" in table else PropertyEntry).model_fields)
+
+
+def read_materials(content: dict[str, Any], where: str) -> MaterialsFile:
+    """The checked tables of materials, or one clear error that says where they stand."""
     try:
         return MaterialsFile.model_validate(content)
     except ValidationError as problem:
         first = problem.errors()[0]
-        place = ".".join(str(part) for part in first["loc"])
+        *table, key = map(str, first["loc"])
+        place = ".".join((*table, key))
+        if first["type"] == "extra_forbidden":
+            told = _("in [{place}]").format(place=".".join(table))
+            raise unknown_name(_("Key"), key, _fields_of(table), f"{told} ({where})") from problem
+        if first["type"] == "missing":
+            raise InputError(
+                _("{name}: '{place}' is missing.").format(name=where, place=place), place=place
+            ) from problem
         raise InputError(
-            _("Materials file {file}: '{place}': {reason}.").format(
-                file=where, place=place, reason=first["msg"].removeprefix("Value error, ")
+            _("{name}: '{place}': {reason}.").format(
+                name=where, place=place, reason=first["msg"].removeprefix("Value error, ")
             ),
-            file=str(where),
             place=place,
         ) from problem

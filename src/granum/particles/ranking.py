@@ -21,7 +21,7 @@ def measured_drag(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sphere_laws() -> dict[str, Any]:
-    """The drag laws of a sphere by the author's part of their name; parametrised laws need a shape and stay
+    """The drag laws of a sphere by the author's part of their name; parametrized laws need a shape and stay
     out.
     """
     from granum.core.registry import everything

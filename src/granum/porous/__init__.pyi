@@ -43,6 +43,9 @@ from granum.porous.formulas.kozeny import (
     void_fraction_kozeny_carman as void_fraction_kozeny_carman,
     wall_correction_coulson as wall_correction_coulson,
 )
+from granum.porous.formulas.non_newtonian import (
+    dynamic_viscosity_bed_christopher_middleman as dynamic_viscosity_bed_christopher_middleman,
+)
 from granum.porous.formulas.packed_beds import (
     BedNumbers as BedNumbers,
     packed_bed_numbers as packed_bed_numbers,

@@ -8,13 +8,14 @@ from typing import Any
 
 import granum
 from granum.core import charts
-from granum.core.i18n import _, current_language
+from granum.core.i18n import _
 from granum.core.results import Result
 from granum.reports.html import note_step
 from granum.reports.mathml import equation_lines, mathml
 from granum.reports.numbers import numbered
 from granum.reports.quantities import beside_rows
 from granum.reports.sensitivity import Curve, chart, covered, curve, spoken
+from granum.reports.templating import page
 
 
 def calculation_sheet(
@@ -36,8 +37,6 @@ def calculation_sheet(
     stated: inputs as intervals, by name.
     link: where the calculation can be opened again.
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
     step, card = note_step(result), result.card
     found = found or curve(thing, result)
     figure = chart(found, units) if found is not None else None
@@ -56,12 +55,8 @@ def calculation_sheet(
         (_("Date"), datetime.date.today().isoformat()),
         (_("Program"), f"Granum {granum.__version__}"),
     ]
-    environment = Environment(
-        loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
-    )
-    return environment.get_template("sheet.html.j2").render(
-        _=_,
-        lang=current_language(),
+    return page(
+        "sheet.html.j2",
         title=card.title,
         summary=card.summary,
         title_block=block,

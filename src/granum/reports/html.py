@@ -11,7 +11,7 @@ import numpy as np
 
 import granum
 from granum.core import charts
-from granum.core.i18n import _, current_language
+from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.registry import find
@@ -32,6 +32,7 @@ from granum.reports.quantities import (
 )
 from granum.reports.sankey import ENERGY, sankey
 from granum.reports.streams import audit_text, stream_table
+from granum.reports.templating import page
 from granum.reports.utilities import utility_table
 from granum.streams.stream import main_phase
 
@@ -40,7 +41,7 @@ def _row(p: Parameter, value: Any, origin: str = "") -> dict[str, str]:
     label = f"{p.label} ({origin})" if origin else p.label
     return {
         "label": label,
-        "symbol": mathml(p.symbol) if p.symbol else p.name,
+        "symbol": mathml(p.symbol) if p.symbol else "",
         "text": value_text(value, p),
     }
 
@@ -192,8 +193,6 @@ def _charts(run: Any) -> list[tuple[str, str]]:
 
 def line_report(run: Any) -> str:
     """HTML of the report."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
     told = run.line.told
     described = told.get("description")
     units = [_unit_sheet(run, name) for name in run.sheet.order]
@@ -212,16 +211,12 @@ def line_report(run: Any) -> str:
         (_("Program"), f"Granum {granum.__version__}"),
         (_("Inputs"), "sha256 " + hashlib.sha256(run.line.text.encode()).hexdigest()[:12]),
     ]
-    environment = Environment(
-        loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
-    )
     audit = run.audit
     numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")} | {
         "text": audit_text(audit)
     }
-    return environment.get_template("line.html.j2").render(
-        _=_,
-        lang=current_language(),
+    return page(
+        "line.html.j2",
         run=run,
         description=_(described) if described else "",
         title_block=[(label, value) for label, value in block if value],

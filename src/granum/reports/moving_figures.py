@@ -9,12 +9,14 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import plotly.graph_objects as go
+from scipy.special import ndtr
 
 import granum as gr
 from granum.core import registry
-from granum.core.charts import ACCENT, CAUTION, LINES, SOLID, add_line, axis_title, figure
+from granum.core.charts import ACCENT, CAUTION, INK, LINES, SOLID, add_line, add_points, axis_title, figure
 from granum.core.errors import unknown_name
 from granum.core.i18n import _
+from granum.core.units import format_number
 from granum.numerics import Anderson
 from granum.reports.moving import MovingFigure, Slider, thin
 from granum.reports.moving_thermal import THERMAL
@@ -22,6 +24,8 @@ from granum.reports.moving_thermal import THERMAL
 WATER = {"fluid_density": 998.2, "dynamic_viscosity": "1.002 mPa s"}
 LIMESTONE = {"law": "vesilind", "vesilind_velocity": "1.20 m/hour", "vesilind_coefficient": "8.8 mL/g"}
 PASSES, COMPONENTS = 100, 24  # through a recycle, and in it
+GRAIN = {"particle_density": 2630.0, "fluid_density": 1020.0, "dynamic_viscosity": 1.2e-3}  # in brine
+MEAN, FALL = 85e-6, 1.5  # m: its mean size, and what it is to sink
 LEAF = {  # Geankoplis, example 14.2-1
     "area": "0.0439 m2",
     "pressure_drop": "338 kPa",
@@ -172,6 +176,41 @@ def recycle(returned_fraction: str, damping: str) -> go.Figure:
     return drawn
 
 
+@jax.jit
+def _fall(size: Any) -> Any:
+    """Velocities of grains in brine, and how much each gains per size."""
+    return jax.jvp(lambda d: gr.particles.terminal_velocity(d, **GRAIN), (size,), (jnp.ones_like(size),))
+
+
+def spreading(standard_deviation: str, time: str) -> go.Figure:
+    """Share of grains slower than a velocity where their size spreads: a lognormal law through the model, and
+    the straight line at the mean with a normal one.
+    """
+    spread = 1e-6 * float(standard_deviation.split()[0])
+    least = FALL / (60.0 * float(time.split()[0]))
+    sigma = np.sqrt(np.log1p((spread / MEAN) ** 2))
+    place = np.linspace(-5.0, 5.0, 81)  # standard deviations
+    speed = np.asarray(_fall(MEAN * np.exp(sigma * place - 0.5 * sigma**2))[0])  # larger grains are faster
+    middle, gain = (float(x) for x in _fall(jnp.asarray(MEAN)))
+    slow = [float(np.interp(least, speed, place)), (least - middle) / (gain * spread)]
+    drawn = figure(
+        axis_title("terminal_velocity", "mm/s"),
+        axis_title("", "percent", _("slower than that")),
+    )
+    for name, speeds, at, color, dash in (
+        (_("through the model: {share} % too slow"), speed, slow[0], ACCENT, "solid"),
+        (_("by the derivative: {share} % too slow"), middle + gain * spread * place, slow[1], SOLID, "dash"),
+    ):
+        told = name.format(share=format_number(round(100.0 * float(ndtr(at)), 2), 2))
+        add_line(drawn, 1e3 * speeds, 100.0 * ndtr(place), told, color=color, dash=dash)
+    needed = _("needed: {velocity} mm/s").format(velocity=format_number(1e3 * least, 3))
+    add_line(drawn, [1e3 * least] * 2, [0.0, 100.0], needed, color=INK, dash="dot")
+    add_points(drawn, [1e3 * least] * 2, 100.0 * ndtr(slow), _("too slow"), color=INK)
+    drawn.update_xaxes(range=[-1.0, 14.0])
+    drawn.update_yaxes(range=[0.0, 100.0])
+    return drawn
+
+
 FIGURES = {
     "drag": MovingFigure((Slider("particle_diameter", "um", 5, 2000, 85, 21, True),), drag),
     "hindrance": MovingFigure((Slider("reynolds", "", 0.01, 1000, 0.01, 16, True),), hindrance),
@@ -211,6 +250,13 @@ FIGURES = {
             Slider("damping", "", 0.4, 2.0, 1.0, 9),
         ),
         recycle,
+    ),
+    "spreading": MovingFigure(
+        (
+            Slider("standard_deviation", "um", 2, 42, 17, 9),
+            Slider("time", "min", 5, 20, 10, 7, True),
+        ),
+        spreading,
     ),
 } | THERMAL
 

@@ -327,6 +327,9 @@ def _to_figure_of(value: float | None, error: float | None) -> str:
     return format_number(value, min(max(digits, 2), 7))
 
 
+ROUNDING = 1e-9
+
+
 class CheckRow(NamedTuple):
     """A check of a unit: its value and what is allowed, in one unit."""
 
@@ -338,7 +341,7 @@ class CheckRow(NamedTuple):
 
 def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> CheckRow:
     """A check as people read it; in the unit of the figure it looks at, where it is one of ``figures``."""
-    value, low, high = float(check.value), float(check.low), float(check.high)
+    value, low, high = float(check.value), _ruled(float(check.low)), _ruled(float(check.high))
     looked_at = next(((p, x) for p, x in figures if _same_quantity(p, x, check)), None)
     if looked_at is None or looked_at[0].kind is None:
         tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
@@ -380,13 +383,18 @@ def _allowed(limit: Limit, card: Card) -> str:
         if isinstance(end, str)
     ]
     low, high = (
-        -math.inf if isinstance(limit.low, str) else limit.low,
-        math.inf if isinstance(limit.high, str) else limit.high,
+        -math.inf if isinstance(limit.low, str) else _ruled(limit.low),
+        math.inf if isinstance(limit.high, str) else _ruled(limit.high),
     )
     if math.isfinite(low) or math.isfinite(high):
         tail, (low, high) = _shown(limit.unit, _end(low, high), low, high)
         words.append(_between(low, high) + tail)
     return ", ".join(words)
+
+
+def _ruled(end: float) -> float:
+    """An end of a limit without what it leaves to the rounding of a calculation."""
+    return 0.0 if abs(end) <= ROUNDING else end
 
 
 def _end(low: float, high: float) -> float:

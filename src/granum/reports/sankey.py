@@ -5,7 +5,6 @@ energy.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +15,8 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.units import from_si, pretty_unit
-from granum.materials.library import session
+from granum.materials.library import Library
+from granum.streams.names import pretty
 from granum.streams.stream import Stream, main_phase
 
 MASS, ENERGY = "mass", "energy"
@@ -115,34 +115,33 @@ def _powers(run: Any) -> list[Flow]:
     return found
 
 
-def titled(of: str) -> str:
+def _library(run: Any) -> Library:
+    """What the substances of a line are called by."""
+    return next(iter(run.streams.values())).mixture.materials
+
+
+def titled(run: Any, of: str) -> str:
     """Of a diagram."""
     titles = {MASS: _("Flow of mass"), ENERGY: _("Flow of energy")}
-    return titles.get(of) or _("Flow of {component}").format(component=session().label(of))
+    return titles.get(of) or _("Flow of {component}").format(component=_library(run).label(of))
 
 
-def _plain(name: str) -> str:
-    return name.replace("_", " ")
-
-
-def diagrams(run: Any, named: Callable[[str], str] = _plain) -> list[dict[str, Any]]:
-    """Every diagram of a line for the page; ``named`` says units and streams in words."""
+def diagrams(run: Any) -> list[dict[str, Any]]:
+    """Every diagram of a line for the page."""
     words = {MASS: _("mass"), ENERGY: _("energy")}
     return [
         {
             "name": of,
-            "label": words.get(of) or session().label(of),
-            "title": titled(of),
-            "figure": json.loads(sankey(run, of, named).to_json()),
+            "label": words.get(of) or _library(run).label(of),
+            "title": titled(run, of),
+            "figure": json.loads(sankey(run, of).to_json()),
         }
         for of in subjects(run)
     ]
 
 
-def sankey(run: Any, of: str = MASS, named: Callable[[str], str] = _plain) -> Any:
-    """The diagram as a Plotly figure: widths in kg/h or kW, in the colors of the phases; ``named`` says units
-    and streams in words.
-    """
+def sankey(run: Any, of: str = MASS) -> Any:
+    """The diagram as a Plotly figure: widths in kg/h or kW, in the colors of the phases."""
     import plotly.graph_objects as go
 
     found = flows(run, of)
@@ -157,7 +156,7 @@ def sankey(run: Any, of: str = MASS, named: Callable[[str], str] = _plain) -> An
             valuesuffix=" " + pretty_unit(unit),
             textfont={"color": charts.INK, "size": 12},
             node={
-                "label": [named(node.strip("> ")) for node in nodes],
+                "label": [pretty(node.strip("> ")) for node in nodes],
                 "color": [charts.INK if node in run.sheet.units else charts.OUTSIDE for node in nodes],
                 "line": {"width": 0},
                 "pad": 22,
@@ -169,14 +168,14 @@ def sankey(run: Any, of: str = MASS, named: Callable[[str], str] = _plain) -> An
                 "target": [nodes.index(flow.target) for flow in found],
                 "value": from_si(values, unit, kind) if len(values) else [],
                 "color": [charts.faded(COLORS[flow.phase]) for flow in found],
-                "label": [named(flow.name) for flow in found],
+                "label": [pretty(flow.name) for flow in found],
                 "hovertemplate": "%{label}: %{value}<extra></extra>",
             },
         )
     )
     chart.update_layout(
         template=charts.template(),
-        title=titled(of),
+        title=titled(run, of),
         height=int(np.clip(160 + RISE * len(nodes), LOWEST, HIGHEST)),
         margin={"l": 12, "r": 12, "t": 45, "b": 16},
     )

@@ -7,13 +7,23 @@ import io
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from granum.core.csv_form import csv_form
 from granum.core.errors import InputError
 from granum.core.files import write_atomic
 from granum.core.i18n import _
+from granum.core.parameters import Parameter
+from granum.core.units import from_si
+
+_READ = ("as read", "unit as read")
 
 
 def table_rows(run: Any) -> dict[str, list[list[Any]]]:
-    """The tables of a solved line, SI units: streams, unit results, utilities."""
+    """The tables of a solved line: streams, unit results, what specifications found, checks, utilities.
+
+    SI units; beside a single value the same in the unit in which it is read.
+    """
     data = run.as_json()
     species = [
         (phase, name)
@@ -37,10 +47,21 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
                 *(s[p][n] for p, n in species),
             ]
         )
-    results: list[list[Any]] = [["unit", "model", "result", "value", "unit of value"]]
+    results: list[list[Any]] = [["unit", "model", "result", "value", "unit of value", *_READ]]
+    for unit, report in run.units.items():
+        shown = {p.name: _as_read(value, p) for p, value in report.figures()}
+        for name, figure in data["units"][unit]["results"].items():
+            read = shown.get(name, ("", ""))
+            results.append([unit, data["units"][unit]["model"], name, figure["value"], figure["unit"], *read])
+    specified: list[list[Any]] = [["unit", "input", "value", "unit of value", *_READ]]
+    for path, p, value in run.sought():
+        unit, _dot, name = path.partition(".")
+        specified.append([unit, name, value, p.kind.unit if p.kind else "", *_as_read(value, p)])
+    checks: list[list[Any]] = [["unit", "check", "value", "low", "high", "unit of value", "kept"]]
     for unit, row in data["units"].items():
-        for name, figure in row["results"].items():
-            results.append([unit, row["model"], name, figure["value"], figure["unit"]])
+        for check in row["checks"]:
+            told = (check[k] for k in ("name", "value", "low", "high", "unit", "ok"))
+            checks.append([unit, *told])
     taken: list[list[Any]] = [["unit", "utility", "carrier", "value", "unit of value", "counted"]]
     for unit, row in data["units"].items():
         for name, use in row["utilities"].items():
@@ -48,7 +69,21 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
     for name, total in data["utilities"].items():
         if isinstance(total, dict) and "value" in total:
             taken.append(["", name, "", total["value"], total["unit"], ""])
-    return {"streams": streams, "results": results, "utilities": taken}
+    return {
+        "streams": streams,
+        "results": results,
+        "specifications": specified,
+        "checks": checks,
+        "utilities": taken,
+    }
+
+
+def _as_read(value: Any, p: Parameter) -> tuple[Any, str]:
+    """A single value in the unit in which it is read, and that unit; empty for what has none."""
+    if p.kind is None or value is None or np.ndim(value):
+        return "", ""
+    unit = p.display_unit(float(value))
+    return float(from_si(float(value), unit, p.kind)), unit
 
 
 def write_tables(run: Any, path: Path) -> None:
@@ -66,11 +101,12 @@ def table_file(run: Any, form: str) -> bytes:
     found = table_rows(run)
     if form == "csv":
         text = io.StringIO()
-        writer = csv.writer(text)
+        form_of = csv_form()
+        writer = csv.writer(text, delimiter=form_of.separator)
         for rows in found.values():
-            writer.writerows(rows)
+            writer.writerows([[form_of.cell(cell) for cell in row] for row in rows])
             writer.writerow([])
-        return text.getvalue().encode()
+        return text.getvalue().encode(form_of.encoding)
     from openpyxl import Workbook
 
     book = Workbook()

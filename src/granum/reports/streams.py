@@ -9,10 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from granum.core.i18n import _
-from granum.core.kinds import KINDS
+from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, from_si, pretty_unit, show
-from granum.materials.library import session
 from granum.streams.stream import main_phase, summary
 
 
@@ -28,11 +27,15 @@ def stream_figures(stream: Any) -> list[tuple[str, str]]:
         ("liquid", m.liquids, stream.liquid),
         ("gas", m.gases, stream.gas),
     )
+    told = _("{material}: {what}")
     for phase, species, flows in phases:
         for one, flow in zip(species, np.asarray(flows), strict=True):
             if flow > 0.0:
                 figures.append(
-                    (f"{_(phase)}: {session().label(one.name)}", show(float(flow), KINDS["MassFlow"]))
+                    (
+                        told.format(material=_(phase), what=m.materials.label(one.name)),
+                        show(float(flow), KINDS["MassFlow"]),
+                    )
                 )
     return figures
 
@@ -58,12 +61,26 @@ def stream_table(run: Any) -> StreamTable:
     )
     heads, cells = [], []
     for label, kind, values in columns:
-        unit = shared if kind is flow else Parameter("", kind).display_unit(values)
         if all(map(math.isnan, values)):
             continue  # no solid anywhere
-        heads.append(f"{label} {pretty_unit(unit)}")
-        cells.append(["" if math.isnan(x) else format_number(float(from_si(x, unit, kind))) for x in values])
+        unit, texts = _column(values, kind, shared if kind is flow else "")
+        heads.append(f"{label} {unit}".strip())
+        cells.append(texts)
     return StreamTable(tuple(heads), list(zip(streams, map(list, zip(*cells, strict=True)), strict=True)))
+
+
+def _column(values: list[float], kind: Kind, unit: str = "") -> tuple[str, list[str]]:
+    """The unit of a column and its cells; each cell has a unit of its own, and the head none, where sizes of
+    molecules and of crystals would stand in one unit as 10⁵ nm.
+    """
+    told = [x for x in values if not math.isnan(x)]
+    unit = unit or Parameter("", kind).display_unit(told)
+    numbers = [abs(float(from_si(x, unit, kind))) for x in told if x]
+    if kind.name == "length" and any(not 1e-3 <= x < 1e5 for x in numbers):
+        return "", ["" if math.isnan(x) else show(x, kind) for x in values]
+    return pretty_unit(unit), [
+        "" if math.isnan(x) else format_number(float(from_si(x, unit, kind))) for x in values
+    ]
 
 
 def stream_look(stream: Any) -> dict[str, Any]:
@@ -77,11 +94,14 @@ def stream_look(stream: Any) -> dict[str, Any]:
 
 
 class Head(NamedTuple):
-    """A column of the stream table: what stands in it, its unit, and the phase it is of."""
+    """A column of the stream table: what stands in it, its unit, the phase it is of, and the columns it
+    stands with.
+    """
 
     label: str
     unit: str
     phase: str
+    group: str
 
 
 def stream_sheet(run: Any) -> dict[str, Any]:
@@ -99,7 +119,7 @@ def stream_sheet(run: Any) -> dict[str, Any]:
     unit = Parameter("mass_flow", flow).display_unit(
         [x for column in flows.values() for x in column.values()]
     )
-    heads = [Head(_(p) if p else _("total"), pretty_unit(unit), p) for p in flows]
+    heads = [Head(_(p) if p else _("total"), pretty_unit(unit), p, "flows") for p in flows]
     columns = [
         {
             n: format_number(float(from_si(x, unit, flow))) if x > 0.0 or not p else ""
@@ -112,21 +132,16 @@ def stream_sheet(run: Any) -> dict[str, Any]:
         ("p", "Pressure", {n: float(s.pressure) for n, s in streams.items()}),
         ("d₅₀", "Length", {n: float(t.median_size) for n, t in told.items()}),
     ):
-        shown = Parameter("", KINDS[kind]).display_unit([x for x in values.values() if not math.isnan(x)])
         if all(map(math.isnan, values.values())):
             continue  # no solid anywhere
-        heads.append(Head(label, pretty_unit(shown), ""))
-        columns.append(
-            {
-                n: "" if math.isnan(x) else format_number(float(from_si(x, shown, KINDS[kind])))
-                for n, x in values.items()
-            }
-        )
+        shown, texts = _column(list(values.values()), KINDS[kind])
+        heads.append(Head(label, shown, "", "state"))
+        columns.append(dict(zip(values, texts, strict=True)))
     for phase, species in phases:
         if len(species) < 2:
             continue
         for i, one in enumerate(species):
-            heads.append(Head(f"w {session().label(one.name)}", "%", phase))
+            heads.append(Head(f"w {mixture.materials.label(one.name)}", "%", phase, f"shares of {phase}"))
             columns.append({n: _share(s, phase, i, flows[phase][n]) for n, s in streams.items()})
     entering = [k.name for k in run.sheet.links if not k.origin]
     leaving = [k.name for k in run.sheet.links if not k.target]

@@ -48,12 +48,15 @@ _PAGE = (
 
 
 def _console() -> Console:
-    return _recording.get() or Console(highlight=False)
+    """Texts are printed as they are: ``[mm/s]`` is a unit, not a style."""
+    return _recording.get() or Console(highlight=False, markup=False, emoji=False)
 
 
 def as_html(printer: Callable[[Any], None], thing: Any) -> str:
     """What a printer of this module or of the studies prints, as HTML."""
-    console = Console(highlight=False, record=True, width=NOTEBOOK, file=StringIO())
+    console = Console(
+        highlight=False, markup=False, emoji=False, record=True, width=NOTEBOOK, file=StringIO()
+    )
     token = _recording.set(console)
     try:
         printer(thing)
@@ -62,8 +65,8 @@ def as_html(printer: Callable[[Any], None], thing: Any) -> str:
     return console.export_html(inline_styles=True, code_format=_PAGE)
 
 
-def _table(*columns: tuple[str, str]) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+def _table(*columns: tuple[str, str], close: bool = False) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=close)
     for title, justify in columns:
         table.add_column(title, justify=justify, overflow="fold")  # type: ignore[arg-type]
     return table

@@ -9,7 +9,7 @@ from typing import Any
 from rich.text import Text
 
 from granum.core.i18n import _
-from granum.reports.quantities import check_row, value_text
+from granum.reports.quantities import check_row, found_rows, value_text
 from granum.reports.streams import audit_text, stream_table
 from granum.reports.terminal import OK, OUT, _console, _notices, _table
 from granum.reports.utilities import utility_table
@@ -37,6 +37,12 @@ def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -
             mark = Text("✓ ", style=OK) if row.ok else Text("✗ ", style=OUT)
             table.add_row("", mark + Text(row.name), f"{row.text} ({row.allowed})")
     console.print(table)
+    if sought := found_rows(outcome):
+        heads = (_("unit"), "left"), (_("found by a specification"), "left"), (_("value"), "right")
+        table = _table(*heads)
+        for row in sought:
+            table.add_row(Text(row["unit"], style="bold"), row["label"], row["text"])
+        console.print(table)
     _print_utilities(console, outcome)
     audit = outcome.audit
     closes = audit["mass_closure"] <= 1e-9 and audit["energy_closure"] <= 1e-9
@@ -49,6 +55,8 @@ def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -
 
 def _print_utilities(console: Any, outcome: Any) -> None:
     found = utility_table(outcome)
+    if not (found.rows or found.carriers or found.totals):
+        return
     table = _table((_("unit"), "left"), (_("utility"), "left"), (_("value"), "right"))
     last = ""
     for row in found.rows:

@@ -2,6 +2,7 @@
 
 from granum.settling.charts import (
     flux_diagram as flux_diagram,
+    settler_layers_chart as settler_layers_chart,
     settling_course_chart as settling_course_chart,
     settling_curve_chart as settling_curve_chart,
 )
@@ -50,6 +51,11 @@ from granum.settling.equipment.gravity import (
     Figures as Figures,
     Outlets as Outlets,
     Settled as Settled,
+)
+from granum.settling.equipment.secondary_settler import (
+    Layers as Layers,
+    SecondarySettler as SecondarySettler,
+    SecondarySettlerFigures as SecondarySettlerFigures,
 )
 from granum.settling.equipment.thickener import (
     Thickener as Thickener,
@@ -158,6 +164,12 @@ from granum.settling.lab_tests.jar_test import (
 )
 from granum.settling.lab_tests.sludge_index_test import (
     SludgeIndexTest as SludgeIndexTest,
+)
+from granum.settling.layers import (
+    Rest as Rest,
+    SettlerLayers as SettlerLayers,
+    Tank as Tank,
+    settler_layers as settler_layers,
 )
 from granum.settling.simulations import (
     BatchCourse as BatchCourse,

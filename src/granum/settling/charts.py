@@ -26,11 +26,23 @@ from granum.core.charts import (
 )
 from granum.core.constants import HOUR, MINUTE
 from granum.core.i18n import _
-from granum.core.kinds import Area, Concentration, Distance, Law, Length, Series, Time, VolumeFlow, Within
+from granum.core.kinds import (
+    Area,
+    Concentration,
+    Distance,
+    Fraction,
+    Law,
+    Length,
+    Series,
+    Time,
+    VolumeFlow,
+    Within,
+)
 from granum.core.units import format_number
 from granum.settling.column import Suspension
 from granum.settling.flux import settling_flux, state_point_clarifier
 from granum.settling.lab_tests.batch_test import BatchTest, VelocityFunction
+from granum.settling.layers import settler_layers
 from granum.settling.simulations import batch_course
 
 Settling = Annotated[Any, Law("settling_velocity")]
@@ -280,4 +292,61 @@ def animated(times: np.ndarray, heights: np.ndarray, concentration: np.ndarray) 
         ],
     )
     drawing.update_xaxes(range=[0.0, 1.05 * float(concentration.max())])
+    return drawing
+
+
+@chart(
+    source="takacs1991; alex2008",
+    title="Layers of a secondary settler",
+    typical={
+        "volume_flow": (0.2, 0.5),
+        "feed_concentration": (2.5, 3.5),
+        "underflow_volume_flow": (0.15, 0.2),
+        "area": (1400.0, 1600.0),
+        "height": (3.5, 4.5),
+    },
+)
+def settler_layers_chart(
+    volume_flow: VolumeFlow,
+    feed_concentration: Concentration,
+    underflow_volume_flow: VolumeFlow,
+    area: Area,
+    height: Length,
+    settling: Settling = "takacs",
+    nonsettleable_share: Fraction = 0.0,
+    layers: Annotated[int, Within(3, 200)] = 10,
+) -> go.Figure:
+    """Concentration of the layers of a secondary settler at rest over its height.
+
+    >>> settler_layers_chart(
+    ...     "36892 m^3/day", 3.27, "18831 m^3/day", 1500, 4, nonsettleable_share=0.00228
+    ... ).layout.xaxis.type
+    'log'
+    """
+    rest = settler_layers(
+        volume_flow,
+        feed_concentration,
+        underflow_volume_flow,
+        area,
+        height,
+        settling=settling,
+        nonsettleable_share=nonsettleable_share,
+        layers=layers,
+    )
+    return layered(rest.layer_concentration, height)
+
+
+def layered(concentration: Any, height: Any) -> go.Figure:
+    """Even layers from the top, as steps over the height."""
+    C = np.asarray(concentration, dtype=float)
+    edges = float(height) * np.linspace(1.0, 0.0, C.size + 1)
+    drawing = figure(
+        axis_title("solids_concentration", "g/L"),
+        axis_title("height", "m"),
+        title=_("Layers of a secondary settler"),
+    )
+    drawn = np.maximum(C, 1e-6 * max(float(C.max()), 1e-9))  # an axis of powers of ten has no zero
+    add_line(drawing, np.repeat(drawn, 2), np.repeat(edges, 2)[1:-1], _("concentration"), color=SOLID)
+    drawing.update_traces(line={"simplify": False})
+    drawing.update_xaxes(type="log")
     return drawing

@@ -60,6 +60,12 @@ class StatePoint(NamedTuple):
     limiting_concentration: Concentration
 
 
+THICK = (
+    "The feed is as thick as this underflow, or thicker: nothing is left to thicken. Ask for a thicker "
+    "underflow or give the feed more liquid."
+)
+
+
 @formula(source="kynch1952", title="Solids flux by settling", equation=r"G = C\,v(C)", typical=_SLUDGE)
 def solids_flux_settling(solids_concentration: Concentration, settling: Settling = "takacs") -> MassFlux:
     """Flux of solids by settling alone: concentration times settling velocity.
@@ -99,7 +105,7 @@ def limiting_flux_underflow(
     Cu, Cf = jnp.asarray(underflow_concentration), jnp.asarray(feed_concentration)
     top = Cu * (1.0 - 1e-9)
     possible = Cf < top
-    impossible(~possible, Cu, "underflow_concentration", Cf, jnp.inf)
+    impossible(~possible, Cu, "underflow_concentration", Cf, jnp.inf, THICK)
     low = jnp.where(possible, Cf, 0.5 * Cu)
 
     def flux(C: Any) -> Any:

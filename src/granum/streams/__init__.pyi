@@ -56,6 +56,9 @@ from granum.streams.equipment.movers import (
     MoverFigures as MoverFigures,
     Pump as Pump,
 )
+from granum.streams.exchange import (
+    Exchange as Exchange,
+)
 from granum.streams.feeding import (
     feed as feed,
 )
@@ -75,7 +78,7 @@ from granum.streams.formulas.stirring import (
     stirring as stirring,
 )
 from granum.streams.from_materials import (
-    CarrierProperty as CarrierProperty,
+    GasProperty as GasProperty,
     SolutionViscosity as SolutionViscosity,
     mixture_of as mixture_of,
 )

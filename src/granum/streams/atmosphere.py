@@ -20,7 +20,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
 MOST_OXYGEN = 0.6  # of the limiting oxygen, where it is not watched all the time
-STARVED = 0.05  # mole fraction of oxygen, with some margin below what organic dusts burn in
+STARVED = 0.05  # mole fraction of oxygen, with some margin below what organic dusts burn in, where untested
 OXYGEN = {AIR: 0.2095, "oxygen": 1.0}  # mole fraction
 
 FLAMMABLE: Limits = {
@@ -48,7 +48,15 @@ EXPLOSIBLE: Limits = {
         "dimensionless",
         "nfpa69_2019, § 8.3; nfpa68_2013",
         quiet=True,
-    )
+    ),
+    "starved": Limit(
+        "oxygen in the gas over the limiting oxygen for its dust",
+        0.0,
+        MOST_OXYGEN,
+        "dimensionless",
+        "nfpa69_2019, § 7.7",
+        quiet=True,
+    ),
 }
 
 VENTED: Limits = {
@@ -97,21 +105,38 @@ def oxygen_of(gas: Stream) -> Any:
 
 def explosible(gas: Stream) -> dict[str, Any]:
     """What is measured of a gas against ``EXPLOSIBLE``: the dust of each solid whose lower explosion limit is
-    known over that limit, added up as Le Chatelier does; nothing where no such solid is in the mixture.
+    known over that limit, added up as Le Chatelier does, and where an inert gas is there the oxygen over the
+    limiting oxygen of the dust that burns with the least; nothing where no such solid is in the mixture.
     """
     m = gas.mixture
     dusts = [_dust(m, species.name) for species in m.solids]
     if all(found is None for found in dusts):
         return {}
     flying = _flying(gas)
+    oxygen = oxygen_of(gas)
     share = sum(
-        (flying[i] / found.explosible_concentration for i, found in enumerate(dusts) if found), jnp.zeros(())
+        (
+            jnp.where(oxygen > _starving(found), flying[i] / found.explosible_concentration, 0.0)
+            for i, found in enumerate(dusts)
+            if found
+        ),
+        jnp.zeros(()),
     )
-    over = safe_divide(share, gas.gas_volume_flow)
-    return {"explosible": jnp.where(oxygen_of(gas) > STARVED, over, 0.0)}
+    measured = {"explosible": safe_divide(share, gas.gas_volume_flow)}
+    tested = [(i, d.limiting_oxygen) for i, d in enumerate(dusts) if d and np.isfinite(d.limiting_oxygen)]
+    if tested and inerted(m):
+        over = [jnp.where(flying[i] > 0.0, oxygen / limit, 0.0) for i, limit in tested]
+        measured["starved"] = jnp.max(jnp.stack(over))
+    return measured
 
 
-def _vent_needed(gas: Stream, vent: Any) -> Any:
+def _starving(found: DustData | None) -> float:
+    """Mole fraction of oxygen in which a dust certainly does not burn."""
+    tested = found is not None and np.isfinite(found.limiting_oxygen)
+    return MOST_OXYGEN * found.limiting_oxygen if found is not None and tested else STARVED
+
+
+def _vent_needed(gas: Stream, vent: Any, coarse: bool) -> Any:
     """The vent area that a vessel needs for the dust that flies in a gas, the fiercest where several do; zero
     where nothing can explode.
     """
@@ -126,22 +151,32 @@ def _vent_needed(gas: Stream, vent: Any) -> Any:
                 "'explosion_pressure' of the vent."
             ).format(names=", ".join(species.name for species in m.solids))
         )
-    flying = _flying(gas)
-    areas = [jnp.where(flying[i] > 0.0, vent(*pair), 0.0) for i, pair in enumerate(known) if pair]
-    return jnp.where(oxygen_of(gas) > STARVED, jnp.max(jnp.stack(areas)), 0.0)
+    oxygen, flying = oxygen_of(gas), _by_species(gas) if coarse else _flying(gas)
+    areas = [
+        jnp.where((flying[i] > 0.0) & (oxygen > _starving(dusts[i])), vent(*pair), 0.0)
+        for i, pair in enumerate(known)
+        if pair
+    ]
+    return jnp.max(jnp.stack(areas))
 
 
-def vented(gas: Stream, vent: Any) -> dict[str, Any]:
+def vented(gas: Stream, vent: Any, coarse: bool = False) -> dict[str, Any]:
     """What is measured of a gas against ``VENTED``: the vent area that its dust asks for over that of the
-    vessel's ``explosion_vent``; nothing without one.
+    vessel's ``explosion_vent``; nothing without one. ``coarse``: of a solid whose dust the size classes need
+    not know, such as grain.
     """
-    return {} if vent is None else {"vent": _vent_needed(gas, vent) / vent.vent_area}
+    return {} if vent is None else {"vent": _vent_needed(gas, vent, coarse) / vent.vent_area}
 
 
 def _flying(gas: Stream) -> Any:
     """Of each solid what is fine enough to burn as dust, kg/s."""
     fine = gas.by_size(jnp.asarray(gas.mixture.sizes) <= COARSEST)
-    return jnp.sum(gas.solid * fine, axis=tuple(range(1, gas.solid.ndim)))
+    return _by_species(gas.replace(solid=gas.solid * fine))
+
+
+def _by_species(gas: Stream) -> Any:
+    """Solid of each species, kg/s."""
+    return jnp.sum(gas.solid, axis=tuple(range(1, gas.solid.ndim)))
 
 
 def _dust(mixture: Mixture, name: str) -> DustData | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from granum.core.datasets import dataset
@@ -12,17 +13,24 @@ COARSEST = 5e-4  # m, above which particles do not count as dust that burns
 
 
 class DustData(NamedTuple):
-    """A tested dust, SI."""
+    """A tested dust, SI; what was not tested is not a number."""
 
     name: str
     median_size: float
     explosible_concentration: float
     explosion_pressure: float
     deflagration_index: float
+    limiting_oxygen: float
+    ignition_energy: float
 
 
 def dusts() -> dict[str, DustData]:
     """Every dust of the table by name."""
+    ignites = {row["name"]: row for row in dataset("streams", "dusts_ignition")}
+
+    def known(name: str, what: str) -> float:
+        return ignites[name][what] if name in ignites else math.nan
+
     return {
         row["name"]: DustData(
             row["name"],
@@ -30,6 +38,8 @@ def dusts() -> dict[str, DustData]:
             row["explosible concentration"],
             row["explosion pressure"],
             row["deflagration index"],
+            known(row["name"], "limiting oxygen"),
+            known(row["name"], "ignition energy"),
         )
         for row in dataset("streams", "dusts_nfpa68")
     }

@@ -18,14 +18,16 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import AIR_WATER, AbstractPair
+from granum.humid_gas.relations import dew_point
 from granum.materials import gas_vapor
 from granum.materials.fluids import Fluid
 from granum.materials.library import Library
 from granum.numerics import find_root
-from granum.streams.mixture import AIR, Mixture, carrier_of
+from granum.streams.mixture import AIR, STEAM, Mixture, carrier_of
 from granum.streams.stream import Stream
 
 COLDEST, HOTTEST = 200.0, 1500.0
+PURE = 1e6  # humidity ratio of a gas that is all vapor
 NEARLY_PURE = 1e-9  # dry gas over vapor below which there is a boiling point and no dew point
 
 
@@ -54,8 +56,11 @@ class HumidMixture:
             raise ApplicabilityError(
                 _(
                     "The mixture needs its first liquid among the gases too, as its vapor: gases = "
-                    '["dry air", "water"]; it has {gases}.'
-                ).format(gases=", ".join(names) or _("none"))
+                    '["dry air", "{liquid}"]; it has {gases}.'
+                ).format(
+                    liquid=mixture.liquids[0].name if mixture.liquids else "water",
+                    gases=", ".join(names) or _("none"),
+                )
             )
         self.mixture = mixture
         self.solvent = mixture.liquids[0].name
@@ -132,10 +137,33 @@ class HumidMixture:
             1e9 * stream.mass_flow,
         )
 
+    def carrying(self, stream: Stream) -> Any:
+        """The gas, kg/s of each species, that carries the vapor which a dryer counts: the dry gas; steam is
+        its own carrier.
+        """
+        dry = stream.gas.at[self.vapor].set(0.0)
+        return jnp.where(stream.gas[self.vapor] > STEAM * stream.gas_flow, stream.gas, dry)
+
+    def carrier_flow(self, stream: Stream) -> Any:
+        """All of it, kg/s."""
+        return jnp.sum(self.carrying(stream))
+
+    def vapor_per_carrier(self, stream: Stream) -> Any:
+        """The vapor besides, kg/kg: humidity of a gas, zero for steam."""
+        carrier = self.carrying(stream)
+        total = jnp.sum(carrier)
+        return (stream.gas[self.vapor] - carrier[self.vapor]) / jnp.where(total > 0, total, 1.0)
+
     def humidity_ratio(self, stream: Stream) -> Any:
-        """Vapor per dry gas, by mass; of a vapor without gas its mass flow."""
-        dry = self.dry_flow(stream)
-        return stream.gas[self.vapor] / jnp.where(dry > 0, dry, 1.0)
+        """Vapor per dry gas, by mass; a million for pure vapor."""
+        vapor = stream.gas[self.vapor]
+        dry = jnp.maximum(self.dry_flow(stream), vapor / PURE)
+        return vapor / jnp.where(dry > 0, dry, 1.0)
+
+    def superheat(self, stream: Stream) -> Any:
+        """Temperature of a gas above that at which its vapor begins to condense, K."""
+        P = jnp.asarray(stream.pressure, dtype=float)
+        return stream.temperature - dew_point(self.pair, P, self.fraction(stream))
 
     def relative_humidity(self, stream: Stream) -> Any:
         """Partial pressure of the vapor over its saturation pressure."""

@@ -1,15 +1,16 @@
 """A mixture from material names: what a case file's ``[mixture]`` table means.
 
 A liquid is a fluid of the library or a solute dissolved in one of them, in the first that it is known in; a
-solid is a solid of the library, a crystal of one of those solutes when it is one of its branches; a gas is a
-fluid of the library. Enthalpies are zero for the liquid solvent, dissolved solutes and permanent gases at
-0 °C, so that vapor carries its heat of vaporization and a crystal lies lower by its heat of crystallization.
+solid is a solid of the library, a crystal of one of those solutes when it is one of its branches, or, as
+``NAME in crystals``, what crystals have taken up of a liquid; a gas is a fluid of the library. Enthalpies are
+zero for the liquid solvent, dissolved solutes and permanent gases at 0 °C, so that vapor carries its heat of
+vaporization and a crystal lies lower by its heat of crystallization.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,8 @@ from granum.materials.correlation import Correlation
 from granum.materials.fluids import Fluid
 from granum.materials.library import Library, session
 from granum.materials.solutes import SoluteSystem
-from granum.streams.mixture import AIR, Mixture, Species, carrier_of
+from granum.streams.exchange import by_ions
+from granum.streams.mixture import AIR, STEAM, Mixture, Species, carrier_of
 
 COLDEST, HOTTEST = 263.15, 423.15  # K, over which condensed-phase properties are taken as polynomials
 HOTTEST_GAS = 873.15
@@ -39,7 +41,7 @@ def mixture_of(
     size_edges: Iterable[float],
     *,
     axes: tuple[tuple[str, tuple[float, ...]], ...] = (),
-    own: Iterable[str | Path] = (),
+    own: Iterable[str | Path | Mapping[str, Any]] = (),
 ) -> Mixture:
     """The mixture of named materials.
 
@@ -47,27 +49,34 @@ def mixture_of(
     ----------
     liquids: solvent first, then dissolved solutes (in any of the liquids) or further liquids.
     solids: crystals and other solids.
-    gases: carrier gases and vapors, in any order; viscosity and conductivity are those of the carrier.
+    gases: carrier gases and vapors, in any order; viscosity and conductivity are those of the carrier, of
+        steam those of the vapor.
     size_edges: class boundaries, m.
     axes: further axes of the solid.
-    own: TOML files with the user's own materials.
+    own: TOML files with the user's own materials, or the tables of such files.
     """
+    gases = tuple(gases)
     carrier = carrier_of(gases, liquids[0] if liquids else None) or next(iter(gases), None)
-    known = session().with_files(own)
+    vapor = (liquids[0], gases.index(liquids[0])) if liquids and liquids[0] in gases else None
+    known = session().with_own(own)
     systems = {
         name: system for name in liquids[1:] if (system := solute_system(known, name, liquids)) is not None
     }
+    dissolved = tuple(
+        _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
+    )
+    made = [_crystal(name, systems) or _taken_up(name, dissolved) or _inert(known, name) for name in solids]
+    formulas = {name: system.formula for name, system in systems.items()}
+    made, dissolved = by_ions(known, made, dissolved, formulas)
     return Mixture(
-        solids=tuple(_crystal(name, systems) or _inert(known, name) for name in solids),
-        liquids=tuple(
-            _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
-        ),
+        solids=made,
+        liquids=dissolved,
         gases=tuple(_gas(known, name) for name in gases),
         size_edges=tuple(float(e) for e in np.asarray(list(size_edges))),
         axes=axes,
         liquid_viscosity=SolutionViscosity(known, tuple(liquids), tuple(systems)) if liquids else None,
-        gas_viscosity=CarrierProperty(known, carrier, "vapor_viscosity") if carrier else None,
-        gas_conductivity=CarrierProperty(known, carrier, "vapor_conductivity") if carrier else None,
+        gas_viscosity=GasProperty(known, carrier, vapor, "vapor_viscosity") if carrier else None,
+        gas_conductivity=GasProperty(known, carrier, vapor, "vapor_conductivity") if carrier else None,
         materials=known,
     )
 
@@ -156,11 +165,34 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
     return None
 
 
+def taken_up_name(liquid: str) -> str:
+    """What a liquid species is called once crystals have taken it up."""
+    return f"{liquid} in crystals"
+
+
+def _taken_up(name: str, liquids: Iterable[Species]) -> Species | None:
+    """A liquid species in the lattice or in inclusions of crystals: as it is in the liquor, but carried by
+    the solid.
+    """
+    return next((replace(s, name=name) for s in liquids if taken_up_name(s.name) == name), None)
+
+
 def _crystal_enthalpy(system: SoluteSystem, name: str, T: Any) -> Any:
     return system.crystal_enthalpy(T, name)
 
 
 def _inert(known: Library, name: str) -> Species:
+    try:
+        known.entry("solid", name)
+    except InputError as unknown:
+        raise InputError(
+            f"{unknown.message} "
+            + _(
+                "One of your own is described in the case by `[solid.{name}]` with "
+                '`density = "1400 kg/m3"` and `heat_capacity = "1 kJ/(kg K)"`.'
+            ).format(name=f'"{name}"' if " " in name else name),
+            **unknown.details,
+        ) from None
     s = known.solid(name)
     return Species(
         s.name,
@@ -247,12 +279,23 @@ class SolutionViscosity:
 
 
 @dataclass(frozen=True)
-class CarrierProperty:
-    """A transport property of the gas, taken as that of the carrier."""
+class GasProperty:
+    """A transport property of the gas, taken as that of the carrier; of steam, that of the vapor.
+
+    ``vapor``: name and place among the gases; none where the liquid has no vapor.
+    """
 
     materials: Library
     carrier: str
+    vapor: tuple[str, int] | None
     name: str
 
-    def __call__(self, temperature: Any) -> Any:
-        return getattr(self.materials.fluid(self.carrier), self.name)(temperature)
+    def __call__(self, mass_fractions: Any, temperature: Any) -> Any:
+        carrier = self._of(self.carrier, temperature)
+        if self.vapor is None or self.vapor[0] == self.carrier:
+            return carrier
+        name, place = self.vapor
+        return jnp.where(mass_fractions[place] > STEAM, self._of(name, temperature), carrier)
+
+    def _of(self, fluid: str, temperature: Any) -> Any:
+        return getattr(self.materials.fluid(fluid), self.name)(temperature)

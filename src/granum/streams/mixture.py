@@ -57,6 +57,7 @@ class Species:
 
 
 AIR = "dry air"
+STEAM = 0.98  # mass share of the vapor from which on a gas counts as steam, which is its own carrier
 
 
 def carrier_of(gases: Iterable[str], vapor: str | None) -> str | None:
@@ -79,7 +80,8 @@ class Mixture:
     axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis
         leaves it alone.
     liquid_viscosity: function of (mass fractions of the liquid species, temperature) → Pa s.
-    gas_viscosity, gas_conductivity: functions of temperature → Pa s, W/(m K).
+    gas_viscosity, gas_conductivity: functions of (mass fractions of the gas species, temperature) → Pa s,
+        W/(m K).
     materials: where the fluids behind the species are found by name.
     """
 
@@ -89,8 +91,8 @@ class Mixture:
     size_edges: tuple[float, ...]
     axes: tuple[tuple[str, tuple[float, ...]], ...] = ()
     liquid_viscosity: Callable[[Any, Any], Any] | None = None
-    gas_viscosity: Callable[[Any], Any] | None = None
-    gas_conductivity: Callable[[Any], Any] | None = None
+    gas_viscosity: Callable[[Any, Any], Any] | None = None
+    gas_conductivity: Callable[[Any, Any], Any] | None = None
     materials: Library = field(default_factory=session)
     _key: Any = field(default=None, repr=False, compare=False)
 

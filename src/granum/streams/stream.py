@@ -106,6 +106,12 @@ class Stream(eqx.Module):
         return self.liquid / jnp.where(total > 0, total, 1.0)
 
     @property
+    def gas_fractions(self) -> Any:
+        """Mass fractions of the gas species (zero when there is no gas)."""
+        total = self.gas_flow
+        return self.gas / jnp.where(total > 0, total, 1.0)
+
+    @property
     def size_fractions(self) -> Any:
         """Mass fractions of the size classes (zero when there is no solid)."""
         total = self.solid_flow
@@ -166,7 +172,7 @@ class Stream(eqx.Module):
         law = self.mixture.gas_viscosity
         if law is None:
             raise InputError(_("The mixture has no gas viscosity; name its carrier gas."))
-        return law(self.temperature)
+        return law(self.gas_fractions, self.temperature)
 
     @property
     def gas_conductivity(self) -> Any:
@@ -174,7 +180,7 @@ class Stream(eqx.Module):
         law = self.mixture.gas_conductivity
         if law is None:
             raise InputError(_("The mixture has no gas conductivity; name its carrier gas."))
-        return law(self.temperature)
+        return law(self.gas_fractions, self.temperature)
 
     @property
     def gas_heat_capacity(self) -> Any:

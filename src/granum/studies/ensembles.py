@@ -15,7 +15,7 @@ from granum.studies.declared import MOST_CASES, limits_of, prepare, sources_of, 
 from granum.studies.distributions import Source
 from granum.studies.engine import evaluate
 from granum.studies.lines import subject_of
-from granum.studies.outcome import Limits, Outcome, meets, number, wilson
+from granum.studies.outcome import Limits, Outcome, kind_in_words, meets, number, wilson
 from granum.studies.sampling import inputs_at, unit_points
 from granum.studies.subjects import NOT_RUN
 
@@ -129,7 +129,11 @@ def monte_carlo(
     )
     cases = evaluate(subject, names, paths, x, **how)
     return Ensemble(
-        title or _("Monte Carlo"), cases, tuple(sources), kept, elapsed=time.perf_counter() - began
+        title or kind_in_words("monte_carlo"),
+        cases,
+        tuple(sources),
+        kept,
+        elapsed=time.perf_counter() - began,
     )
 
 
@@ -242,5 +246,10 @@ def sobol(
     )
     cases = evaluate(subject, names, paths, inputs_at(sources, points), **how)
     return Sensitivity(
-        title or _("Sobol indices"), cases, tuple(sources), groups, seed, elapsed=time.perf_counter() - began
+        title or kind_in_words("sobol"),
+        cases,
+        tuple(sources),
+        groups,
+        seed,
+        elapsed=time.perf_counter() - began,
     )

@@ -13,7 +13,7 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.studies.declared import whole
 from granum.studies.engine import Cancel, Progress, Report
-from granum.studies.outcome import Outcome, number
+from granum.studies.outcome import Outcome, kind_in_words, number
 from granum.studies.problem import as_cases, constraints_of, objective_of, search_of, starts_of
 from granum.studies.search import FEASIBLE, Constraint, Found, Point, Stopped, descend
 from granum.studies.subjects import FINE
@@ -169,7 +169,7 @@ def pareto(
             front.append(e)
     senses = tuple("minimize" if s > 0 else "maximize" for s in (sign_one, sign_two))
     return Front(
-        title or _("Pareto front"),
+        title or kind_in_words("pareto"),
         as_cases(search, front),
         (one, two),
         senses,  # type: ignore[arg-type]

@@ -14,7 +14,7 @@ from granum.core.i18n import _
 from granum.studies.declared import MOST_CASES, limits_of, prepare, si, whole
 from granum.studies.engine import evaluate
 from granum.studies.lines import subject_of
-from granum.studies.outcome import Limits, Outcome, meets, number
+from granum.studies.outcome import Limits, Outcome, kind_in_words, meets, number
 from granum.studies.subjects import Subject
 
 if TYPE_CHECKING:
@@ -86,7 +86,9 @@ def sweep(
     (path, table), *_rest = over.items()
     x = values_of(subject, path, table)[:, None]
     return Sweep(
-        title or _("Sweep"), evaluate(subject, (path,), paths, x, **how), elapsed=time.perf_counter() - began
+        title or kind_in_words("sweep"),
+        evaluate(subject, (path,), paths, x, **how),
+        elapsed=time.perf_counter() - began,
     )
 
 
@@ -155,7 +157,13 @@ def parameter_map(
     whole(len(first) * len(second), "steps", 4, MOST_CASES)
     x = np.stack([g.ravel() for g in np.meshgrid(first, second, indexing="ij")], axis=1)
     cases = evaluate(subject, tuple(over), paths, x, **how)
-    return Map(title or _("Map"), cases, (len(first), len(second)), kept, elapsed=time.perf_counter() - began)
+    return Map(
+        title or kind_in_words("map"),
+        cases,
+        (len(first), len(second)),
+        kept,
+        elapsed=time.perf_counter() - began,
+    )
 
 
 @dataclass(frozen=True)
@@ -213,4 +221,6 @@ def scenarios(
         rows.append([row[p] for p in varied])
     subject, paths = prepare(subject, outputs, varied)
     found = evaluate(subject, varied, paths, np.array(rows), **how)
-    return Scenarios(title or _("Scenarios"), found, tuple(cases), elapsed=time.perf_counter() - began)
+    return Scenarios(
+        title or kind_in_words("scenarios"), found, tuple(cases), elapsed=time.perf_counter() - began
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,20 +62,11 @@ def find_input(card: Any, name: str, /, **given: Any) -> Found:
             _("{card} takes too long to be solved for {name}.").format(card=thing.card.key, name=p.label)
         ) from None
     if not x:
-        raise _unreached(p, output, wanted, reach, _first(p, count))
+        raise unreached(p, output, wanted, reach, _first(p, count))
     told = [any(n["flag"] == "extrapolated" for n in r.notices) for r in results]
     chosen = [i for i, beyond in enumerate(told) if not beyond] if len(x) > 1 else [0]
     if len(chosen) != 1:
-        raise ApplicabilityError(
-            _(
-                "{output} = {wanted} is reached at several values of {name}: {values}. Choose one of them."
-            ).format(
-                output=output.label,
-                wanted=value_text(wanted, output),
-                name=p.label,
-                values=", ".join(value_text(v, p) for v in x[:4]),
-            )
-        )
+        raise reached_often(p, output, wanted, x)
     return Found(p, x[chosen[0]], results[chosen[0]])
 
 
@@ -213,9 +204,22 @@ def _refined(
     return root if min(abs(miss[i]), abs(miss[i + 1])) <= REACHED * scale or wanted == 0.0 else None
 
 
-def _unreached(
+def reached_often(p: Parameter, output: Parameter, wanted: float, x: Sequence[float]) -> ApplicabilityError:
+    """Several values of an input give the wanted result."""
+    return ApplicabilityError(
+        _("{output} = {wanted} is reached at several values of {name}: {values}. Choose one of them.").format(
+            output=output.label,
+            wanted=value_text(wanted, output),
+            name=p.label,
+            values=", ".join(value_text(v, p) for v in x[:4]),
+        )
+    )
+
+
+def unreached(
     p: Parameter, output: Parameter, wanted: float, reach: tuple[float, float], looked: np.ndarray
 ) -> ConvergenceError:
+    """No value of an input that was looked at gives the wanted result."""
     return ConvergenceError(
         _(
             "{output} = {wanted} is not reached at any value of {name} from {first} to {last}: with the "

@@ -13,7 +13,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.studies.declared import whole
 from granum.studies.engine import Cancel, Progress, Report, evaluate
-from granum.studies.outcome import Limits, Outcome, meets, number, statistics, wilson
+from granum.studies.outcome import Limits, Outcome, kind_in_words, meets, number, statistics, wilson
 from granum.studies.problem import as_cases, constraints_of, search_of, starts_of
 from granum.studies.sampling import inputs_at, unit_points
 from granum.studies.search import FEASIBLE, Found, Point, Search, Span, Stopped, descend, multipliers
@@ -234,7 +234,7 @@ def optimize(
     )
     chance = _checked(search, best, kept, seed, samples, how) if search.samples is not None else None
     return Optimum(
-        title or _("Optimization"),
+        title or kind_in_words("optimize"),
         cases,
         objective,
         sign < 0,

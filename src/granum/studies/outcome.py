@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from granum.core import notebooks
+from granum.core.csv_form import csv_form
 from granum.core.errors import InputError, reason_of
 from granum.core.files import check_writable
 from granum.core.i18n import _
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     import xarray as xr
 
-FILES = (".nc", ".parquet", ".csv")
+FILES = (".nc", ".parquet", ".csv", ".xlsx")
 
 
 def number(value: Any) -> float | None:
@@ -42,6 +43,23 @@ def variable_json(v: Variable) -> dict[str, Any]:
         "unit": v.unit,
         "units": list(v.parameter.units),
     }
+
+
+def kind_in_words(kind: str) -> str:
+    """A kind of study as people call it.
+
+    >>> kind_in_words("pareto")
+    'Pareto front'
+    """
+    return {
+        "monte_carlo": _("Monte Carlo"),
+        "sobol": _("Sobol indices"),
+        "sweep": _("Sweep"),
+        "map": _("Map"),
+        "scenarios": _("Scenarios"),
+        "optimize": _("Optimization"),
+        "pareto": _("Pareto front"),
+    }[kind]
 
 
 @dataclass(frozen=True)
@@ -146,8 +164,8 @@ class Outcome(abc.ABC):
         return notebooks.shown("granum.studies.report:print_study", self)
 
     def save(self, path: str | Path) -> None:
-        """Write all cases to ``.nc`` (NetCDF), ``.parquet`` (needs pyarrow) or ``.csv``, whole or not at
-        all.
+        """Write all cases to ``.nc`` (NetCDF), ``.parquet`` (needs pyarrow), ``.csv`` or ``.xlsx``, whole or
+        not at all.
         """
         path = Path(path)
         check_file(path)
@@ -172,7 +190,8 @@ class Outcome(abc.ABC):
         """Write all cases as NetCDF."""
         if Path(path).suffix != ".nc":
             raise InputError(
-                _("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path)
+                _("'{path}': results are written as .nc, .parquet, .csv or .xlsx.").format(path=path),
+                path=str(path),
             )
         self.save(path)
 
@@ -201,7 +220,8 @@ def check_file(path: Path) -> None:
     """Complain early about a file that cannot be written."""
     if path.suffix not in FILES:
         raise InputError(
-            _("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path)
+            _("'{path}': results are written as .nc, .parquet, .csv or .xlsx.").format(path=path),
+            path=str(path),
         )
     if not (path.parent or Path()).is_dir():
         raise InputError(
@@ -218,12 +238,17 @@ def _write(data: Any, name: str, suffix: str) -> None:
         data.to_netcdf(name, engine="h5netcdf")
         return
     frame = data.to_dataframe().reset_index()
-    if suffix == ".csv":
+    if suffix in (".csv", ".xlsx"):
         units = {n: data[n].attrs.get("units", "") for n in data.data_vars}
-        frame.rename(columns={n: f"{n} [{u}]" for n, u in units.items() if u}).to_csv(name, index=False)
+        headed = frame.rename(columns={n: f"{n} [{u}]" for n, u in units.items() if u})
+        if suffix == ".xlsx":
+            headed.to_excel(name, index=False, freeze_panes=(1, 1))
+            return
+        form = csv_form()
+        headed.to_csv(name, index=False, sep=form.separator, decimal=form.decimal, encoding=form.encoding)
         return
     if find_spec("pyarrow") is None:
-        raise InputError(_("Parquet needs pyarrow: pip install pyarrow, or write .nc or .csv."))
+        raise InputError(_("Parquet needs pyarrow: pip install pyarrow, or write .nc, .csv or .xlsx."))
     frame.to_parquet(name, engine="pyarrow")
 
 

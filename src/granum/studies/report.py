@@ -13,10 +13,11 @@ import numpy as np
 from rich.text import Text
 
 import granum
-from granum.core.i18n import _, current_language
+from granum.core.i18n import _
 from granum.core.units import format_number, from_si, pretty_unit
+from granum.reports.templating import page
 from granum.reports.terminal import CAUTION, OK, OUT, _console, _table
-from granum.studies.outcome import Outcome
+from granum.studies.outcome import Outcome, kind_in_words
 from granum.studies.subjects import Variable
 
 ROWS = 40
@@ -54,6 +55,14 @@ def _known(outcome: Outcome) -> dict[str, Variable]:
     return {v.path: v for v in (*outcome.inputs, *outcome.outputs)}
 
 
+def _labels(outcome: Outcome) -> dict[str, str]:
+    """The quantities in words by path; the unit they belong to only where there are several."""
+    known = _known(outcome)
+    owners = {v.path.partition(".")[0] if "." in v.path and not v.named else "" for v in known.values()}
+    alone = len(owners) == 1 and "" not in owners
+    return {path: v.parameter.label if alone else v.label for path, v in known.items()}
+
+
 def _statistics(outcome: Outcome, found: dict[str, Any]) -> Rows:
     heads = [
         (_("figure"), "left"),
@@ -64,13 +73,13 @@ def _statistics(outcome: Outcome, found: dict[str, Any]) -> Rows:
         (_("unit"), "left"),
         (_("failed cases"), "right"),
     ]
-    cells = []
+    cells, labels = [], _labels(outcome)
     for v in outcome.outputs:
         row = found["statistics"][v.path]
         unit = v.parameter.display_unit(row["p50"] if row["p50"] is not None else 0.0)
         cells.append(
             [
-                v.path,
+                labels[v.path],
                 *(_cell(v, row[k], unit) for k in ("p10", "p50", "p90", "mean")),
                 pretty_unit(unit),
                 str(row["failed"]),
@@ -79,10 +88,10 @@ def _statistics(outcome: Outcome, found: dict[str, Any]) -> Rows:
     return Rows(_("Figures"), heads, cells)
 
 
-def _limit_text(v: Variable | None, low: float | None, high: float | None) -> str:
+def _limit_text(label: str, v: Variable | None, low: float | None, high: float | None) -> str:
     if v is None:
         return _("all limits together")
-    parts = [f"{v.path}"]
+    parts = [label]
     if low is not None:
         parts.insert(0, f"{_with_unit(v, low)} ≤")
     if high is not None:
@@ -91,12 +100,18 @@ def _limit_text(v: Variable | None, low: float | None, high: float | None) -> st
 
 
 def _chances(outcome: Outcome, rows: dict[str, Any], limits: dict[str, Any]) -> Rows:
-    known = _known(outcome)
+    known, labels = _known(outcome), _labels(outcome)
     cells = []
     for path, row in rows.items():
         low, high = (limits.get(path, {}).get(k) for k in ("lower", "upper"))
         span = " … ".join(_percent(x) for x in row["interval_95"])
-        cells.append([_limit_text(known.get(path), low, high), _percent(row["probability"]), span])
+        cells.append(
+            [
+                _limit_text(labels.get(path, ""), known.get(path), low, high),
+                _percent(row["probability"]),
+                span,
+            ]
+        )
     return Rows(
         _("Probability of keeping the limits"),
         [(_("limit"), "left"), (_("probability"), "right"), (_("95 % interval"), "right")],
@@ -109,12 +124,11 @@ def _monte_carlo(outcome: Any, found: dict[str, Any]) -> list[Rows]:
     if found["limits"]:
         tables.append(_chances(outcome, found["limits"], found["limits"]))
     if len(outcome.cases.inputs) > 1 and found["rank_correlation"]:
-        cells = []
-        for figure, row in found["rank_correlation"].items():
+        cells, labels = [], _labels(outcome)
+        for path, row in found["rank_correlation"].items():
             known = sorted(((n, r) for n, r in row.items() if r is not None), key=lambda pair: -abs(pair[1]))
-            for name, r in known[:LEADING]:
-                cells.append([figure, name, format_number(r, 2)])
-                figure = ""
+            for i, (name, r) in enumerate(known[:LEADING]):
+                cells.append([labels[path] if i == 0 else "", labels.get(name, name), format_number(r, 2)])
         heads = [(_("figure"), "left"), (_("input"), "left"), (_("rank correlation"), "right")]
         tables.append(Rows(_("What moves the figures most"), heads, cells))
     return tables
@@ -129,38 +143,42 @@ def _sobol(outcome: Any, found: dict[str, Any]) -> list[Rows]:
         (_("with interactions"), "right"),
         ("±", "right"),
     ]
-    cells = []
-    for figure, rows in found["indices"].items():
-        for name, s in sorted(rows.items(), key=lambda row: -(row[1]["total"] or 0.0)):
+    cells, labels = [], _labels(outcome)
+    for path, rows in found["indices"].items():
+        ranked = sorted(rows.items(), key=lambda row: -(row[1]["total"] or 0.0))
+        for i, (group, s) in enumerate(ranked):
             keys = ("first", "first_interval", "total", "total_interval")
-            cells.append([figure, name, *("—" if s[k] is None else format_number(s[k], 3) for k in keys)])
-            figure = ""
+            names = " + ".join(labels.get(name) or name for name in group.split(" + "))
+            shares = ("—" if s[k] is None else format_number(s[k], 3) for k in keys)
+            cells.append([labels[path] if i == 0 else "", names, *shares])
     return [_statistics(outcome, found), Rows(_("Share of the variance (Sobol indices)"), heads, cells)]
 
 
 def _columns(outcome: Any, rows: Sequence[int], names: Sequence[str] = ()) -> Rows:
     """Inputs and figures of some cases, one case a row, units in the heads."""
     heads, columns = ([(_("case"), "left")], [list(names)]) if names else ([], [])
+    labels = _labels(outcome)
     for v in (*outcome.inputs, *(v for v in outcome.outputs if v.path not in outcome.cases.inputs)):
         values = outcome.column(v.path)
         unit = v.parameter.display_unit(values)
-        label = pretty_unit(unit)
-        heads.append((f"{v.path} [{label}]" if label else v.path, "right"))
+        name, label = labels[v.path], pretty_unit(unit)
+        heads.append((f"{name} / {label}" if label else name, "right"))
         columns.append([_cell(v, values[i], unit) for i in rows])
     return Rows("", heads, [list(row) for row in zip(*columns, strict=True)])
 
 
 def _map(outcome: Any, found: dict[str, Any]) -> list[Rows]:
-    cells = []
+    cells, labels = [], _labels(outcome)
     for v in outcome.outputs:
         values = outcome.column(v.path)
         if not np.isfinite(values).any():
             continue
         for word, place in ((_("least"), int(np.nanargmin(values))), (_("most"), int(np.nanargmax(values)))):
             at = "; ".join(
-                f"{u.path} = {_with_unit(u, outcome.cases.x[place, i])}" for i, u in enumerate(outcome.inputs)
+                f"{labels[u.path]} = {_with_unit(u, outcome.cases.x[place, i])}"
+                for i, u in enumerate(outcome.inputs)
             )
-            cells.append([v.path, word, _with_unit(v, values[place]), at])
+            cells.append([labels[v.path], word, _with_unit(v, values[place]), at])
     tables = [
         Rows(
             _("Extremes of the map"),
@@ -193,17 +211,17 @@ def _price(price: float, goal: Variable, found: dict[str, Any], v: Variable, lim
 
 
 def _optimum(outcome: Any, found: dict[str, Any]) -> list[Rows]:
-    known = _known(outcome)
+    known, labels = _known(outcome), _labels(outcome)
     inputs = [
         [
-            p,
+            labels[p],
             _with_unit(known[p], row["value"]),
             f"{_with_unit(known[p], row['lower'])} … {_with_unit(known[p], row['upper'])}",
         ]
         for p, row in found["inputs"].items()
     ]
     figures = [
-        [p, _with_unit(known[p], row["value"]), _with_unit(known[p], row["before"])]
+        [labels[p], _with_unit(known[p], row["value"]), _with_unit(known[p], row["before"])]
         for p, row in found["outputs"].items()
     ]
     active = []
@@ -215,7 +233,7 @@ def _optimum(outcome: Any, found: dict[str, Any]) -> list[Rows]:
             if row["price"] is None
             else _price(row["price"], known[found["objective"]["name"]], found, v, row["limit"])
         )
-        active.append([f"{row['name']} {sign} {_with_unit(v, row['limit'])}", price])
+        active.append([f"{labels[row['name']]} {sign} {_with_unit(v, row['limit'])}", price])
     tables = [
         Rows(_("Best inputs"), [(_("input"), "left"), (_("value"), "right"), (_("allowed"), "left")], inputs),
         Rows(
@@ -321,14 +339,12 @@ def stoppable(parts: Path | None) -> Iterator[None]:
 def print_study(outcome: Outcome, saved: Sequence[Path] = ()) -> None:
     """The outcome of ``granum study``."""
     console = _console()
-    console.print(
-        Text(outcome.title, style="bold"),
-        Text(f"  {outcome.kind} · {outcome.cases.subject.title}", style="dim"),
-    )
+    told = " · ".join(dict.fromkeys((outcome.title, kind_in_words(outcome.kind))))
+    console.print(Text(told, style="bold"), Text(f"  {outcome.cases.subject.title}", style="dim"))
     for rows in tables_of(outcome):
         if rows.title:
             console.print(Text(rows.title, style="bold"))
-        table = _table(*rows.heads)  # type: ignore[arg-type]
+        table = _table(*rows.heads, close=True)  # type: ignore[arg-type]
         for cells in rows.cells:
             table.add_row(*cells)
         console.print(table)
@@ -344,7 +360,7 @@ def print_study(outcome: Outcome, saved: Sequence[Path] = ()) -> None:
                     "{starts} starts"
                 ).format(
                     sense=sense,
-                    name=name,
+                    name=_labels(outcome)[name],
                     value=_with_unit(goal, found["objective"]["value"]),
                     before=_with_unit(goal, found["objective"]["before"]),
                     evaluations=found["evaluations"],
@@ -366,8 +382,6 @@ def print_study(outcome: Outcome, saved: Sequence[Path] = ()) -> None:
 
 def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -> str:
     """HTML of the report of one or several studies of one file."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
     from granum.core.charts import as_html
 
     sections, first = [], True
@@ -380,7 +394,7 @@ def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -
         sections.append(
             {
                 "title": outcome.title,
-                "kind": outcome.kind,
+                "kind": kind_in_words(outcome.kind),
                 "tables": tables_of(outcome),
                 "warnings": warnings_of(outcome),
                 "charts": drawn,
@@ -394,12 +408,8 @@ def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -
         (_("Date"), datetime.date.today().isoformat()),
         (_("Program"), f"Granum {granum.__version__}"),
     ]
-    environment = Environment(
-        loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
-    )
-    return environment.get_template("study.html.j2").render(
-        _=_,
-        lang=current_language(),
+    return page(
+        "study.html.j2",
         title=title or outcomes[0].title,
         title_block=block,
         sections=sections,

@@ -27,7 +27,7 @@ from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.studies import ensembles, fronts, grids, optimizing
 from granum.studies.engine import Cancel, Report
-from granum.studies.outcome import Outcome
+from granum.studies.outcome import Outcome, kind_in_words
 from granum.studies.subjects import Subject
 
 
@@ -105,8 +105,9 @@ class Study:
 
     @property
     def title(self) -> str:
-        """Title, as declared or by kind."""
-        return str(self.options.get("title") or self.name.replace("_", " "))
+        """Title, as declared, or the kind in words when its name tells no more."""
+        own = kind_in_words(self.kind) if self.name == self.kind else self.name.replace("_", " ")
+        return str(self.options.get("title") or own)
 
     @property
     def kept_in_parts(self) -> bool:

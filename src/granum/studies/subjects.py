@@ -23,6 +23,7 @@ from granum.core.conversion import Binder, convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
+from granum.streams.names import pretty
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
 EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN, NOT_CLOSED, NEGATIVE, OVERSATURATED, TOO_HOT = (
@@ -59,7 +60,7 @@ class Variable:
             return self.path.replace("_", " ")
         owner, dot, _last = self.path.partition(".")
         own = self.parameter.label
-        return f"{owner}: {own}" if dot else own
+        return _("{unit}: {quantity}").format(unit=pretty(owner), quantity=own) if dot else own
 
     @property
     def unit(self) -> str:

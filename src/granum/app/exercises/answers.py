@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from typing import Any
 
 from granum.app import exercises
 from granum.app.exercises.numbers import PLACE, Numbers, filled_text
+from granum.core import registry
+from granum.core.csv_form import csv_form
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.units import format_number, pretty_unit
@@ -57,12 +60,18 @@ def sheet(name: str, first: int, last: int) -> str:
         )
     drawn = list(found["draws"])
     written = io.StringIO()
-    rows = csv.writer(written, lineterminator="\n")
-    rows.writerow([_("seed"), *(_headed(n, found["draws"][n]["unit"]) for n in drawn), *_asked(found)])
+    form = csv_form()
+    rows = csv.writer(written, lineterminator="\n", delimiter=form.separator)
+    named = _named(found, drawn)
+    rows.writerow([_("seed"), *(_headed(named[n], found["draws"][n]["unit"]) for n in drawn), *_asked(found)])
     for seed in range(first, last + 1):
         numbers = Numbers(found, seed)
         rows.writerow(
-            [seed, *(f"{numbers.drawn(n)[0]:.10g}" for n in drawn), *map(_cell, answers(name, seed))]
+            [
+                seed,
+                *(form.cell(float(f"{numbers.drawn(n)[0]:.10g}")) for n in drawn),
+                *(form.cell(_cell(answer)) for answer in answers(name, seed)),
+            ]
         )
     return written.getvalue()
 
@@ -78,9 +87,37 @@ def _asked(found: dict[str, Any]) -> list[str]:
     ]
 
 
+def _named(found: dict[str, Any], drawn: list[str]) -> dict[str, str]:
+    """What the drawn numbers are called: as the input of the first card that takes one as it is; where none
+    does, or two are called the same, by the words before them.
+    """
+    texts = [found["statement"], *(step["ask"] for step in found["steps"])]
+    sentences = [exercises.in_language(text) for text in texts]
+    around = {name: next((_around(s, name) for s in sentences if f"{{{name}}}" in s), name) for name in drawn}
+    labels = {name: _label(found, name) for name in drawn}
+    once = [label for label in labels.values() if list(labels.values()).count(label) == 1]
+    return {name: label if label in once and label else around[name] for name, label in labels.items()}
+
+
+def _label(found: dict[str, Any], name: str) -> str:
+    for step in found["steps"]:
+        for word, text in step.get("inputs", {}).items():
+            if text == f"{{{name}}}":
+                card = registry.find(step["card"]).card
+                return next((p.label for p in card.parameters if p.name == word), "")
+    return ""
+
+
+def _around(text: str, name: str) -> str:
+    """The few words before a number of a sentence."""
+    before = text.partition(f"{{{name}}}")[0]
+    words = PLACE.sub("…", re.split(r"[.;:?!]\s", before)[-1]).split()
+    return " ".join((*words[-5:], "…"))
+
+
 def _headed(name: str, unit: str) -> str:
     return f"{name} ({pretty_unit(unit)})" if unit else name
 
 
-def _cell(answer: dict[str, Any]) -> str:
-    return answer["text"] if answer["value"] is None else f"{answer['value']:.{DIGITS}g}"
+def _cell(answer: dict[str, Any]) -> str | float:
+    return answer["text"] if answer["value"] is None else float(f"{answer['value']:.{DIGITS}g}")

@@ -1,5 +1,6 @@
 // A piece of equipment alone: its parameters and what enters, solved as a line of its own; handed to Lines when wanted.
 import {
+  colon,
   html,
   t,
   ask,
@@ -12,7 +13,8 @@ import {
   settings,
   Working,
 } from './core.js';
-import { CALCULATED, Calculate } from './calculate.js';
+import { Chapter } from './chapter.js';
+import { CALCULATED, Calculate, Seek, seekable, useSeek } from './calculate.js';
 import { Finder, useCards } from './cards.js';
 import { Field } from './form.js';
 import { keepDraft, packed } from './drafts.js';
@@ -56,11 +58,22 @@ function Work({ card, given }) {
     }
     setValues((before) => ({ ...before, [name]: value }));
   };
+  const results = form.data?.outputs.filter((p) => p.kind && !p.series) ?? [];
+  const { sought, solved, finder, change, stop } = useSeek({
+    card,
+    values,
+    put: set,
+    start: (p) => {
+      const output = form.data.duty?.setting === p.name ? form.data.duty.figure : results[0].name;
+      return { name: p.name, output, text: '' };
+    },
+    seekable: (p) => results.length > 0 && seekable(p) && !p.name.includes('.'),
+  });
   const problem = form.error || answer.error;
   const busy = form.pending || answer.pending;
   const wrong = problem?.details?.name;
   const field = (p) =>
-    html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
+    html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} aside=${finder(p)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
   const needed = form.data?.parameters.filter((p) => p.required || form.data.values[p.name] !== undefined);
   const more = form.data?.parameters.filter((p) => !needed.includes(p));
   /** The machine as a line of its own, handed to another page. */
@@ -72,7 +85,8 @@ function Work({ card, given }) {
     keepDraft(place, now);
     location.hash = link(page, place, { case: await packed(now) });
   };
-  return html`<section aria-label=${t('Enter')} aria-busy=${String(!form.data && !form.error)}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
+  return html`<section aria-label=${t('Enter')} aria-busy=${String(!form.data && !form.error)}><h1>${card.title}</h1><p class="dim">${card.summary} <${Chapter} card=${card.card} /></p>
+      ${form.data?.no_size && html`<p class="small dim">${form.data.no_size}</p>`}
       ${
         form.data &&
         html`<form onSubmit=${(e) => e.preventDefault()} onfocusout=${() => {
@@ -95,6 +109,7 @@ function Work({ card, given }) {
       <a class="button" href=${link('studies')} onClick=${handTo('studies')} aria-disabled=${String(!text)}>${t('Study')}</a>
       <a class="button" href=${link('lines')} onClick=${handTo('lines')} aria-disabled=${String(!text)}>${t('Put it in a line')}</a></div></section>
     <section aria-label=${t('Believe')}>
+      ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${form.data.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
       <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />
       <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text} />`}</div></section>`;
@@ -113,7 +128,7 @@ function Outcome({ data, form, text }) {
   const [unit] = Object.values(data.units);
   const failed = unit.checks.filter((c) => !c.ok);
   return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Results')}><table class="answers"><tbody>${Object.entries(unit.results).map(([name, row]) => html`<tr><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n" data-figure=${name}><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>
-    <div class=${failed.length || data.flags.length ? 'caution' : 'ok'} data-belief=${failed.length || data.flags.length ? 'caution' : 'ok'}>${data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`)}${failed.map((c) => html`<p class="mark">▲ ${c.name}: ${c.text} (${c.allowed})</p>`)}
+    <div class=${failed.length || data.flags.length ? 'caution' : 'ok'} data-belief=${failed.length || data.flags.length ? 'caution' : 'ok'}>${data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`)}${failed.map((c) => html`<p class="mark">▲ ${c.name}${colon()} ${c.text} (${c.allowed})</p>`)}
       ${!failed.length && !data.flags.length && html`<p class="mark">● ${t('within its practical limits')}</p>`}</div>
     ${unit.checks.length > 0 && html`<details open><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${unit.checks.map((c) => html`<tr class=${c.ok ? '' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.text}</td><td class="dim">${c.allowed}</td></tr>`)}</tbody></table></div></details>`}
     <${StreamTable} turned table=${data.stream_table} text=${text} labels=${ports(data.stream_table.rows, form?.ports)} />

@@ -14,6 +14,7 @@ import {
   settings,
   Working,
 } from './core.js';
+import { Chapter } from './chapter.js';
 import { Plot, decoded } from './plot.js';
 import { Fields, changed, fields, missingOf, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
@@ -80,36 +81,20 @@ function Work({ page, card, given }) {
     }
     setValues(next);
   };
-  const [sought, setSought] = useState(null);
-  const rest = { ...values, [sought?.name]: '' };
-  const ready = sought?.text && missingOf(card, card.parameters, rest).every((p) => p.name === sought.name);
-  const solved = useAnswer(
-    (signal) =>
-      ready
-        ? ask(
-            `/api/solve/${card.card}`,
-            { inputs: values, find: sought.name, output: sought.output, wanted: sought.text },
-            { signal },
-          )
-        : Promise.resolve(null),
-    [JSON.stringify([ready, sought, rest])],
-    150,
-  );
-  useEffect(() => {
-    if (solved.data && !solved.pending) set({ ...values, [sought.name]: solved.data.text }, sought.name);
-  }, [solved.data]);
   const results = card.outputs?.filter((p) => p.kind && !p.series) ?? [];
-  const seek = (p) => {
-    const first = sought?.output || results[0].name;
-    setSought(
-      sought?.name === p.name ? null : { name: p.name, output: first, text: written(answer.data, first) },
-    );
-  };
-  const seekable = (p) =>
-    kind === 'calc' && results.length > 0 && p.kind && !p.series && !p.options?.length && p.sort !== 'int';
-  const finder = (p) =>
-    seekable(p) &&
-    html`<button type="button" class="find-input" aria-pressed=${String(sought?.name === p.name)} title=${t('Find the value that gives a wanted result')} aria-label=${t('Find {name} for a wanted result', { name: p.label })} onClick=${() => seek(p)}>${t('find')}</button>`;
+  const othersGiven = (name) =>
+    missingOf(card, card.parameters, { ...values, [name]: '' }).every((p) => p.name === name);
+  const { sought, solved, finder, change, stop } = useSeek({
+    card,
+    values,
+    ready: othersGiven,
+    put: (name, text) => set({ ...values, [name]: text }, name),
+    start: (p, before) => {
+      const output = before?.output || results[0].name;
+      return { name: p.name, output, text: written(answer.data, output) };
+    },
+    seekable: (p) => kind === 'calc' && results.length > 0 && seekable(p),
+  });
   const wrong = fields(card, card.parameters).find((p) => p.name === answer.error?.details?.name);
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
   // Lists that were opened as lists stay so while somebody types in them.
@@ -138,11 +123,11 @@ function Work({ page, card, given }) {
     }
     setTimeout(() => setCopied(''), 4000);
   };
-  return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
+  return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary} <${Chapter} card=${card.card} /></p>
       <form onSubmit=${(e) => e.preventDefault()} onfocusout=${() => {
         edited.current = '';
       }}><${Fields} card=${card} all=${inForm} values=${values} onChange=${(p, text, understood) => {
-        if (p.name === sought?.name && !understood) setSought(null);
+        if (p.name === sought?.name && !understood) stop();
         set((before) => changed(before, p, text), p.name, understood);
       }} aside=${finder} wrong=${wrong} error=${answer.error?.message} /></form>
       <div class="row"><button class="button" disabled=${!past.length} onClick=${() => {
@@ -153,7 +138,7 @@ function Work({ page, card, given }) {
       <button class="button" onClick=${() => set(ordinary(card))}>${t('Example values')}</button>
       <button class="button" onClick=${copy}>${t('Copy link')}</button>${kind === 'calc' && html` <a class="button" href=${link('studies', 'card:' + card.card, resolved(values, answer.data))}>${t('Study')}</a>`} <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
-      ${sought && html`<${Seek} card=${card} results=${results} sought=${sought} change=${(part) => setSought({ ...sought, ...part })} stop=${() => setSought(null)} solved=${solved} label=${card.parameters.find((p) => p.name === sought.name).label} />`}
+      ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${card.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
@@ -177,8 +162,41 @@ function written(data, name) {
     : '';
 }
 
+/** Whether an input can be found for a wanted result. */
+export const seekable = (p) => p.kind && !p.series && !p.options?.length && p.sort !== 'int';
+
+/**
+ * An input that is sought for a wanted result: which one, what the server finds, the button that asks for it. `start` says
+ * for which result, `put` takes what is found, `ready` whether the other inputs are given.
+ */
+export function useSeek({ card, values, ready = () => true, put, start, seekable: may }) {
+  const [sought, setSought] = useState(null);
+  const asks = Boolean(sought?.text && ready(sought.name));
+  const solved = useAnswer(
+    (signal) =>
+      asks
+        ? ask(
+            `/api/solve/${card.card}`,
+            { inputs: values, find: sought.name, output: sought.output, wanted: sought.text },
+            { signal },
+          )
+        : Promise.resolve(null),
+    [JSON.stringify([asks, sought, { ...values, [sought?.name]: '' }])],
+    150,
+  );
+  useEffect(() => {
+    if (solved.data && !solved.pending) put(sought.name, solved.data.text);
+  }, [solved.data]);
+  const seek = (p) => setSought(sought?.name === p.name ? null : start(p, sought));
+  const finder = (p) =>
+    may(p) &&
+    html`<button type="button" class="find-input" aria-pressed=${String(sought?.name === p.name)} title=${t('Find the value that gives a wanted result')} aria-label=${t('Find {name} for a wanted result', { name: p.label })} onClick=${() => seek(p)}>${t('find')}</button>`;
+  const change = (part) => setSought({ ...sought, ...part });
+  return { sought, solved, finder, change, stop: () => setSought(null) };
+}
+
 /** The wanted result, typed where the result stands; the input is found. */
-function Seek({ card, results, sought, change, stop, solved, label }) {
+export function Seek({ results, sought, change, stop, solved, label }) {
   const p = results.find((q) => q.name === sought.output);
   return html`<div class="sought" data-seek=${sought.name}><div class="row"><strong>${t('Find {name} for', { name: label })}</strong>${
     results.length > 1

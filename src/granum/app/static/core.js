@@ -1,8 +1,18 @@
 // State in the link, language, theme, requests: shared by every page.
-import { h, html, render, useState, useEffect, useRef, useMemo, useCallback } from './vendor/htm-preact.js';
+import {
+  h,
+  html,
+  render,
+  useState,
+  useEffect,
+  useLayoutEffect,
+  useRef,
+  useMemo,
+  useCallback,
+} from './vendor/htm-preact.js';
 import { english, french } from './strings.fr.js';
 
-export { h, html, render, useState, useEffect, useRef, useMemo, useCallback };
+export { h, html, render, useState, useEffect, useLayoutEffect, useRef, useMemo, useCallback };
 
 // ---- state in the link: #/page/key?name=value&… ----------------------------------------------------
 let links = 0;
@@ -104,9 +114,12 @@ export function apply() {
 /** The colon of the language: French puts a no-break space before it. */
 export const colon = () => (settings.language === 'fr' ? '\u00a0:' : ':');
 
+/** French as it is printed: the apostrophe of print, and no line that begins with a mark. */
+const spaced = (text) => text.replaceAll("'", '’').replace(/ (?=[:;?!»%])|(?<=«) /g, '\u00a0');
+
 export function t(text, values = {}) {
   const found =
-    settings.language === 'fr' ? french[text]?.replaceAll("'", '’') || text : english[text] || text;
+    settings.language === 'fr' ? (french[text] ? spaced(french[text]) : text) : english[text] || text;
   return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
 }
 
@@ -205,7 +218,7 @@ export function useAnswer(make, dependencies, wait = 60) {
     running.current?.abort();
     setState((s) => ({
       ...s,
-      error: new Error(t('Cancelled. Change an input to calculate again.')),
+      error: new Error(t('Canceled. Change an input to calculate again.')),
       to: dependencies,
     }));
   };

@@ -1,5 +1,5 @@
 // Case files that were changed and not saved: one draft per file, and the text itself in the link where it is short.
-import { ask, t } from './core.js';
+import { ask, settings, t } from './core.js';
 
 const LONGEST = 8000; // characters of a link
 const KEY = 'granum-drafts';
@@ -62,3 +62,7 @@ export async function caseAt(place, carried, signal) {
   );
   return { text: own ?? saved, saved, changed: own !== null && own !== saved };
 }
+
+/** The examples of a list of files as a menu shows them. */
+export const byTitle = ({ shipped, titles }) =>
+  shipped.toSorted((a, b) => (titles[a] || a).localeCompare(titles[b] || b, settings.language));

@@ -94,6 +94,10 @@ function Reason({ name, place, seed, step }) {
   return html`${error && html`<p class="message out">${error.message}</p>`}<${Working} busy=${pending} cancel=${cancel} job=${job} />${found && html`<p data-output=${step.card}><strong><${Indexed} text=${found.text} /></strong></p><p><${Indexed} text=${found.why} /></p>`}`;
 }
 
+/** A quantity by its symbol, or by its name where it has none. */
+const named = (row) =>
+  row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label;
+
 /** The answer with its calculation, and its chart when asked for. */
 function Calculated({ step }) {
   const { data, error, pending, cancel, job } = useAnswer(
@@ -106,11 +110,11 @@ function Calculated({ step }) {
   const apart = settings.language === 'fr' ? ' ; ' : '; ';
   return html`${error && html`<p class="message out">${error.message}</p>`}<${Working} busy=${pending} cancel=${cancel} job=${job} />${
     row &&
-    html`<p class="result" data-output=${row.name}><span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = <strong>${row.text}</strong></p>
+    html`<p class="result" data-output=${row.name}>${named(row)} = <strong>${row.text}</strong></p>
     ${step.printed && html`<p class="small" data-printed>${t('Printed in the course: {value}', { value: step.printed })}</p>`}
     ${step.remark && html`<p class="small dim"><${Indexed} text=${step.remark} /></p>`}
     <div class="dim">${step.title}</div>${data.equation && html`<${Equation} shown=${data.equation} />`}
-    <p class="small">${data.inputs_shown.map((r, i) => html`${i > 0 ? apart : ''}<span class="pair"><span dangerouslySetInnerHTML=${{ __html: r.symbol }} /> = ${r.text}</span>`)}</p>
+    <p class="small">${data.inputs_shown.map((r, i) => html`${i > 0 ? apart : ''}<span class="pair">${named(r)} = ${r.text}</span>`)}</p>
     <div class="row"><button type="button" class="button" aria-expanded=${String(drawn)} onClick=${() => setDrawn(!drawn)}>${drawn ? t('Hide the chart') : t('Show the chart')}</button> <a class="small" href=${link('calculate', step.card, step.inputs)}>${t('Open in Calculate')}</a></div>
     ${drawn && html`<${Charted} step=${step} />`}`
   }`;

@@ -15,6 +15,7 @@ import {
   download,
   Working,
 } from './core.js';
+import { Chapter } from './chapter.js';
 import { Plot, decoded } from './plot.js';
 import { UseInLine } from './lab_line.js';
 import { Field, changed, fields, missingOf } from './form.js';
@@ -76,15 +77,18 @@ function Test({ card, given }) {
     [table, turn],
     250,
   );
-  const take = async (list) => {
+  const [workbook, setWorkbook] = useState(null);
+  const take = async (list, sheet = '') => {
     if (!list?.length) return;
     const mine = ++dropped.current;
     const form = new FormData();
     form.append('file', list[0]);
+    form.append('sheet', sheet);
     try {
-      const { text } = await ask('/api/table', form);
+      const { text, sheets } = await ask('/api/table', form);
       if (dropped.current !== mine) return; // another table came meanwhile
       setTold(list[0].name);
+      setWorkbook(sheets.length > 1 ? { file: list[0], sheets, sheet: sheet || sheets[0] } : null);
       now.current(text);
     } catch (problem) {
       if (dropped.current === mine) setTold(problem.message);
@@ -110,6 +114,7 @@ function Test({ card, given }) {
     give(card.trial.values);
     setTrial(card.trial);
     setTold('');
+    setWorkbook(null);
   };
   const left = answer.data && !answer.pending ? leftOutAtStart(answer.data.kept) : 0;
   const shown = conditions.map((p) =>
@@ -118,7 +123,7 @@ function Test({ card, given }) {
       : p,
   );
   const wrong = fields(card, conditions).find((p) => p.name === answer.error?.details?.name);
-  return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
+  return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary} <${Chapter} card=${card.card} /></p>
       <div class=${'drop' + (over ? ' over' : '')} onDragOver=${(e) => {
         e.preventDefault();
         setOver(true);
@@ -128,14 +133,15 @@ function Test({ card, given }) {
         take(e.dataTransfer.files);
       }}>
         <p>${t('Drop a CSV or Excel file here, or choose one:')}</p><label class="button">${t('Choose a file')}<input class="hidden" type="file" accept=".csv,.tsv,.txt,.xlsx" onChange=${(e) => take(e.target.files)} /></label>
-        <div role="status">${told}</div></div>
+        <div role="status">${told}</div>
+        ${workbook && html`<label class="end" for="sheet"><span>${t('One of {count} sheets', { count: workbook.sheets.length })}</span><select id="sheet" value=${workbook.sheet} onChange=${(e) => take([workbook.file], e.target.value)}>${workbook.sheets.map((name) => html`<option value=${name} selected=${name === workbook.sheet}>${name}</option>`)}</select></label>`}</div>
       ${card.trial && html`<div class="row"><button class="button" onClick=${tryIt}>${t('Try with example data')}</button>${trial && html` <span class="caution" role="status" data-trial>▲ ${t('Example: data and conditions of {name}', { name: trial.name })}</span>`}</div>`}
       <h2><label for="table">${t('or paste the table')}</label></h2>
       <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => own(e.target.value)}></textarea>
       ${!tableKept && html`<p class="message caution" role="status">▲ ${t('This table is too large to be kept here: it is gone after a reload.')}</p>`}
       <${Columns} columns=${columns} table=${table} change=${setTable} />
       <${Rows} table=${table} change=${setTable} />
-      <p class="small dim">${t('The first line names the columns with their units:')} <code>${example}</code></p>
+      <p class="small dim screen">${t('The first line names the columns with their units:')} <code>${example}</code></p>
       <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${fields(card, shown).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text, understood) => (understood ? setValues : give)((before) => changed(before, p, text))} problem=${wrong?.name === p.name ? answer.error.message : ''} />`)}</form></section>
     <section aria-label=${t('Believe')} aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
       ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
@@ -292,14 +298,14 @@ function Fitted({ data, values, table, leave }) {
     const { chart: _chart, ...rest } = data;
     download(`${data.card}.json`, JSON.stringify(rest, null, 1), 'application/json');
   };
-  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Parameters')}><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value ± standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th></tr></thead>
-    <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}${row.unit && html` <span class="dim">/ ${row.unit}</span>`}</td><td class="n">${row.derived ? row.together : html`<strong>${row.together}</strong>`}</td><td class="n">${row.between}</td></tr>`)}</tbody></table></div>
+  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Parameters')}><table class="stack"><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value ± standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th></tr></thead>
+    <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}${row.unit && html` <span class="dim">/ ${row.unit}</span>`}</td><td class="n" data-head=${t('value ± standard error')}>${row.derived ? row.together : html`<strong>${row.together}</strong>`}</td><td class="n" data-head=${t('95 % interval')}>${row.between}</td></tr>`)}</tbody></table></div>
     ${data.flags.map((flag) => html`<p class="message caution">${flag.message || flag}</p>`)}
     ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} name=${data.card} onMark=${mark} />`}
     ${apart && html`<h2>${t('Residuals')}</h2><${Plot} figure=${residuals(data)} label=${t('Residuals')} files=${false} onMark=${mark} />`}
-    <p class="small dim">${t('Click a point to leave it out of the fit.')}</p>
+    <p class="small dim screen">${t('Click a point to leave it out of the fit.')}</p>
     <details><summary>${t('Statistics')}</summary><table class="small" data-statistics><tbody>${data.statistics_rows.map(([label, text]) => html`<tr><td>${label}</td><td class="n">${text}</td></tr>`)}</tbody></table></details>
     ${data.remarks.map((text) => html`<p class="small dim">${text}</p>`)}
     <${UseInLine} data=${data} values=${values} table=${table} />
-    <button class="button" onClick=${save}>${t('Download the result')}</button>`;
+    <div class="row"><button class="button" onClick=${save}>${t('Download the result')}</button></div>`;
 }

@@ -1,6 +1,7 @@
 // What a lab test gave, taken into a line: the data and conditions go into its case, so that the uncertainty stays known.
-import { html, t, ask, link, lastPlace, useState, useEffect } from './core.js';
+import { html, t, ask, colon, link, lastPlace, useState, useEffect } from './core.js';
 import { caseAt, draftedPlaces, keepDraft, packed } from './drafts.js';
+import { pretty } from './line_forms.js';
 
 /** The line that is open under Lines: its place and what its link carries. */
 function openLine() {
@@ -65,11 +66,11 @@ export function UseInLine({ data, values, table }) {
       setTold({ problem: problem.message });
     }
   };
-  return html`<section class="card" data-use aria-label=${t('Use in a line')}><h2 class="first">${t('Use in a line')}</h2>${
+  return html`<section class="card screen" data-use aria-label=${t('Use in a line')}><h2 class="first">${t('Use in a line')}</h2>${
     places.length === 0
       ? html`<p class="small dim">${t('Open a line under Lines first: its equipment then takes what was fitted here.')}</p>`
       : html`<div class="ports"><label class="end"><span>${t('line')}</span><select id="use-line" value=${place} onChange=${(e) => setPlace(e.target.value)}>${places.map((one) => html`<option value=${one} selected=${one === place}>${shortly(one)}</option>`)}</select></label>
-      ${units?.length > 0 && html`<label class="end"><span>${t('equipment')}</span><select id="use-unit" value=${unit} onChange=${(e) => setUnit(e.target.value)}>${units.map(([name, item]) => html`<option value=${name} selected=${name === unit}>${item.name}: ${item.title}</option>`)}</select></label>`}</div>
+      ${units?.length > 0 && html`<label class="end"><span>${t('equipment')}</span><select id="use-unit" value=${unit} onChange=${(e) => setUnit(e.target.value)}>${units.map(([name, item]) => html`<option value=${name} selected=${name === unit}>${pretty(name)}${colon()} ${item.title}</option>`)}</select></label>`}</div>
       ${units?.length === 0 && html`<p class="small dim">${t('No equipment of {line} takes what this test gives.', { line: shortly(place) })}</p>`}
       <button class="button" disabled=${!unit} onClick=${use}>${t('Use in the line')}</button> <span class="small dim">${t('Data and conditions go into the line with it, and the uncertainty stays known.')}</span>
       ${told?.problem && html`<p class="message out" role="alert">${told.problem}</p>`}

@@ -1,7 +1,6 @@
-// Forms of a line: its substances, feeds and equipment.
+// Forms of a line: its feeds and equipment.
 import { html, t, useState, useEffect } from './core.js';
 import { Field } from './form.js';
-import { Choice, useSubstances, named } from './line_new.js';
 
 /** Feeds and equipment, each a closed form that opens when asked. */
 export function Forms({ form, typedIn, build, problem, message }) {
@@ -10,7 +9,12 @@ export function Forms({ form, typedIn, build, problem, message }) {
   return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${form.ends.targets.find((end) => end.value === item.to)?.label || pretty(item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} /></details>`)}
     ${group(t('Equipment'), form.units, (name, item) => html`<details key=${'units' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.title || item.model}</span></summary><${ItemForm} table="units" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong(name)} message=${message} /></details>`)}`;
 }
-export const pretty = (name) => name.replaceAll('_', ' ').replace('.', ' · ');
+// what the line on the screen calls its units and streams, in the language of the page
+let names = {};
+export const learn = (found) => {
+  names = found;
+};
+export const pretty = (name) => names[name] || name.replaceAll('_', ' ').replace('.', ' · ');
 const group = (label, items, make) =>
   Object.keys(items).length > 0 &&
   html`<h2>${label}</h2>${Object.entries(items).map(([name, item]) => make(name, item))}`;
@@ -52,35 +56,4 @@ export function EndMenu({ id, label, value, ends, none, pick, own = '' }) {
   return html`<label class="end" for=${id}><span>${label}</span><select id=${id} value=${value} onChange=${(e) => pick(e.target.value)}><option value="" selected=${!value}>${none}</option>
     ${free.filter((end) => end.value.split('.')[0] !== own || end.value === value).map(option)}
     ${taken.length > 0 && html`<optgroup label=${t('in use: a divider or mixer is put in')}>${taken.map(option)}</optgroup>`}</select></label>`;
-}
-
-/** What the line is made of: each phase as a list that one takes from and adds to. */
-export function Substances({ form, build }) {
-  const known = useSubstances();
-  const { liquids, solids, gases } = form.substances;
-  const phases = [
-    ['liquids', t('Liquids: solvent first, then what is dissolved in it'), liquids],
-    ['solids', t('Solids'), solids],
-    ['gases', t('Gases and vapors'), gases],
-  ];
-  const set = (phase, names) => build('choose_substances', { liquids, solids, gases, [phase]: names });
-  return html`<details data-substances><summary>${t('Substances')} <span class="dim">${[...new Set([...liquids, ...solids, ...gases])].map((name) => named(known, name)).join(', ')}</span></summary>
-    ${phases.map(
-      ([phase, label, names]) =>
-        html`<div class="substances"><p class="small dim">${label}</p><div class="row">${names.map(
-          (name) =>
-            html`<span class="chip">${named(known, name)} <button aria-label=${t('Remove {name}', { name: named(known, name) })} onClick=${() =>
-              set(
-                phase,
-                names.filter((other) => other !== name),
-              )}>×</button></span>`,
-        )}
-        <${Choice} id=${'add-' + phase} label=${t('Add')} quiet rows=${offered(known, phase, liquids[0])} value="" pick=${(name) => name && !names.includes(name) && set(phase, [...names, name])} /></div></div>`,
-    )}</details>`;
-}
-
-function offered(known, phase, solvent) {
-  if (!known) return [];
-  if (phase !== 'liquids') return known[phase];
-  return [...known.liquids, ...known.solutes.filter((s) => s.solvent === solvent)];
 }

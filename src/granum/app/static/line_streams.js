@@ -1,5 +1,6 @@
 // The streams of a line: the table of all, as a file, and one by itself.
 import { html, t, ask, download, useState } from './core.js';
+import { FittedTable } from './fitted_table.js';
 import { Plot } from './plot.js';
 import { pretty } from './line_forms.js';
 
@@ -21,16 +22,38 @@ export function StreamTable({ table, place = '', text, choose, labels, turned = 
       setProblem(fault.message);
     }
   };
+  const called = (name) => labels[name] || pretty(name);
+  const drawn = turned
+      ? {
+          sort: 'turned',
+          corner: html`<span class="hidden">${t('value')}</span>`,
+          columns: rows.map(([name]) => ({ head: called(name), group: name })),
+          rows: table.heads.map((head, i) => ({
+            head: html`${head.label} <span class="dim">/ ${head.unit}</span>`,
+            phase: head.phase,
+            cells: rows.map(([, cells]) => cells[i]),
+          })),
+        }
+      : {
+          corner: t('stream'),
+          columns: table.heads.map((head) => ({
+            head: html`${head.label}<span class="dim">${head.unit}</span>`,
+            phase: head.phase,
+            group: head.group,
+          })),
+          rows: [
+            ...rows.map(([name, cells]) => ({
+              cells,
+              head: choose
+                ? html`<button class="name" onClick=${() => choose({ sort: 'stream', name })}>${called(name)}</button>`
+                : called(name),
+            })),
+            ...table.sums.map(([head, cells]) => ({ head, cells, sort: 'sum' })),
+          ],
+        };
   return html`<div class="row spread"><h2>${t('Streams')}</h2><div class="row"><button class="button" onClick=${() => take('csv')}>CSV</button><button class="button" onClick=${() => take('xlsx')}>Excel</button></div></div>
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
-    <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')} data-streams>${
-      turned
-        ? html`<table class="streams turned"><thead><tr><th scope="col"><span class="hidden">${t('value')}</span></th>${rows.map(([name]) => html`<th class="n" scope="col">${labels[name] || pretty(name)}</th>`)}</tr></thead>
-    <tbody>${table.heads.map((head, i) => html`<tr data-phase=${head.phase}><th scope="row">${head.label} <span class="dim">/ ${head.unit}</span></th>${rows.map(([, cells]) => html`<td class="n">${cells[i]}</td>`)}</tr>`)}</tbody></table>`
-        : html`<table class="streams"><thead><tr><th scope="col">${t('stream')}</th>${table.heads.map((head) => html`<th class="n" scope="col" data-phase=${head.phase}>${head.label}<span class="dim">${head.unit}</span></th>`)}</tr></thead>
-    <tbody>${rows.map(([name, cells]) => html`<tr><th scope="row">${choose ? html`<button class="name" onClick=${() => choose({ sort: 'stream', name })}>${labels[name] || pretty(name)}</button>` : labels[name] || pretty(name)}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}</tr>`)}
-    ${table.sums.map(([label, cells]) => html`<tr class="sum"><th scope="row">${label}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}${table.heads.slice(cells.length).map(() => html`<td></td>`)}</tr>`)}</tbody></table>`
-    }</div>
+    <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')} data-streams><${FittedTable} about=${table} ...${drawn} /></div>
     ${
       table.empty.length > 0 &&
       html`<p class="small"><button class="link" data-empty aria-expanded=${String(all)} onClick=${() => setAll(!all)}>${

@@ -16,15 +16,16 @@ import {
   Working,
 } from './core.js';
 import { order } from './cards.js';
-import { caseAt, drafted, keepDraft, packed } from './drafts.js';
+import { byTitle, caseAt, drafted, keepDraft, packed } from './drafts.js';
 import { Editor } from './line_editor.js';
-import { Forms, Substances } from './line_forms.js';
+import { Forms, learn } from './line_forms.js';
 import { NewLine } from './line_new.js';
 import { Outcome } from './line_outcome.js';
 import { Palette } from './line_palette.js';
 import { Panel } from './line_panel.js';
 import { Sheet } from './line_sheet.js';
 import { Specifications } from './line_specifications.js';
+import { Substances } from './line_substances.js';
 
 const MOST_KEPT = 2;
 const STEPS = 100; // that can be taken back
@@ -63,6 +64,7 @@ export function Lines({ state }) {
   const [solved, setSolved] = useState('');
   const [typing, setTyping] = useState(false);
   const [form, setForm] = useState(null);
+  const [reading, setReading] = useState(false);
   const [error, setError] = useState(null);
   const [busy, setBusy] = useState(false);
   const [told, setTold] = useState('');
@@ -87,8 +89,8 @@ export function Lines({ state }) {
     );
   useEffect(() => {
     files();
-    return () => stop.current?.abort();
-  }, []);
+  }, [settings.language]);
+  useEffect(() => () => stop.current?.abort(), []);
   useEffect(() => {
     if (state.key.includes(':')) open(state.key, state.values.case);
   }, [state.visit]);
@@ -110,9 +112,13 @@ export function Lines({ state }) {
   const shown = async (next) => {
     latest.current = next;
     setText(next);
+    setReading(true);
     try {
-      const found = await ask('/api/case/form', { case: next, across: across.current });
-      if (latest.current === next) setForm(found);
+      const found = await ask('/api/case/form', { case: next, across: across.current, place: where.current });
+      if (latest.current === next) {
+        learn(found.names);
+        setForm(found);
+      }
       return found;
     } catch {
       if (latest.current === next) {
@@ -120,6 +126,8 @@ export function Lines({ state }) {
         setWriting(true);
       }
       return null;
+    } finally {
+      if (latest.current === next) setReading(false);
     }
   };
   /** Solve in a moment what is whole; what is not says what it needs. */
@@ -207,7 +215,7 @@ export function Lines({ state }) {
     }
   };
   /** A step of building; gives the name of what came to be, or true, and nothing where it was refused. */
-  const build = async (operation, given) => {
+  const build = async (operation, given, told = setError) => {
     await complete();
     return next(async () => {
       const before = form;
@@ -215,7 +223,7 @@ export function Lines({ state }) {
       try {
         const found = await ask('/api/case/build', { case: latest.current, operation, arguments: given });
         await change(found.case);
-        const now = await ask('/api/case/form', { case: found.case, across: across.current });
+        const now = await ask('/api/case/form', { case: found.case, across: across.current, place: where.current });
         const fresh = (table) => Object.keys(now[table]).find((name) => !(name in (before?.[table] || {})));
         const streams = (found) => (found?.ends.origins || []).map((end) => end.stream);
         const stream = () => streams(now).find((name) => !streams(before).includes(name));
@@ -225,7 +233,7 @@ export function Lines({ state }) {
             ? fresh('feeds') || true
             : true;
       } catch (problem) {
-        setError(problem);
+        told(problem);
         return null;
       }
     });
@@ -345,7 +353,7 @@ export function Lines({ state }) {
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
     <div class="row"><button class="button ${text ? '' : 'main'}" onClick=${() => setMaking(true)}>${t('New line')}</button><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
       ${place.startsWith('computer:') && html`<option value=${place} selected>${place.slice(9)}</option>`}
-      ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${f}</option>`)}</optgroup>`}
+      ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${byTitle(list).map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${list.titles[f] || f}</option>`)}</optgroup>`}
       ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select></div>
     <div class="row"><button class="button main" disabled=${!text || busy} onClick=${async () => {
       await complete();
@@ -378,6 +386,7 @@ export function Lines({ state }) {
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
     ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
     ${text && html`<div class="row spread"><h2 class="first title">${form?.title || outcome?.title || ''}</h2><div class="row">${tools}</div></div>`}
+    ${reading && !form && html`<p class="dim" aria-busy="true">${t('Reading the line…')}</p>`}
     ${
       form &&
       html`<div class="row"><button class="button" onClick=${() => setPalette({ origin: '' })}>${t('Add equipment')}</button><button class="button" onClick=${async () => {
@@ -395,12 +404,12 @@ export function Lines({ state }) {
       !text &&
       !making &&
       html`<h2 class="first">${t('Start a new line')}</h2><p>${t('Choose what enters, put equipment behind it, and see it solved after each step.')}</p><button class="button main" onClick=${() => setMaking(true)}>${t('New line')}</button>
-    <h2>${t('Start from an example')}</h2>${byDomain(list).map(([domain, files]) => html`<h3>${domain ? t(domain) : t('Several operations')}</h3><div class="columns">${files.map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}</button>`)}</div>`)}`
+    <h2>${t('Start from an example')}</h2>${byDomain(list).map(([domain, files]) => html`<h3>${domain ? t(domain) : t('Several operations')}</h3><div class="columns tiles">${files.map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}</button>`)}</div>`)}`
     }
     ${
       form &&
       html`<div class="sheet ${old ? 'stale' : ''}"><${Sheet} svg=${form.diagram} streams=${outcome?.streams} old=${old || missing.length > 0} chosen=${chosen} choose=${choose} put=${(origin) => setPalette({ origin })} connect=${(origin, target) => build('connect', { origin, target })} setAcross=${wider} /></div>
-    <p class="small dim">${t('Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.')}</p>`
+    <p class="small dim screen">${t('Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.')}</p>`
     }
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
     <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} />`}</div>

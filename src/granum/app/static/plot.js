@@ -137,10 +137,18 @@ function upright(axis, height) {
     : { ...axis, automargin: true };
 }
 
+/** Long names of bars in lines of a few words each: the room goes to the bars. */
+function foldedNames(data) {
+  const names = [...new Set(data.flatMap((trace) => trace.y))];
+  const ticktext = names.map((name) => String(name).replace(/(\S.{9,}?) (?=\S{3})/g, '$1<br>'));
+  return { tickmode: 'array', tickvals: names, ticktext };
+}
+
 /** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
 function fitted({ layout, data }, width) {
   const count = data.filter((trace) => trace.name && trace.showlegend !== false).length;
   const narrow = width < NARROW;
+  const height = (layout.height || 450) - 110;
   const right = layout.yaxis?.side === 'right';
   const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
   const own = layout.legend && ['x', 'y', 'orientation'].some((part) => layout.legend[part] !== undefined);
@@ -152,7 +160,7 @@ function fitted({ layout, data }, width) {
         orientation: 'h',
         x: 0,
         xanchor: 'left',
-        y: -0.22,
+        y: -75 / height, // below the title of the axis, however low the chart is
         yanchor: 'top',
         font: { size: 11 },
       }
@@ -165,7 +173,6 @@ function fitted({ layout, data }, width) {
         ...(count > 8 ? { showlegend: false } : {}),
       }
     : {};
-  const height = (layout.height || 450) - 110;
   const upward = Object.fromEntries(
     Object.entries({ ...layout, ...axes })
       .filter(([part]) => /^yaxis\d*$/.test(part))
@@ -177,6 +184,8 @@ function fitted({ layout, data }, width) {
         ];
       }),
   );
+  if (narrow && layout.yaxis?.type === 'category')
+    upward.yaxis = { ...upward.yaxis, ...foldedNames(data) };
   return {
     ...layout,
     title: undefined,
@@ -189,7 +198,7 @@ function fitted({ layout, data }, width) {
   };
 }
 
-const axisText = (axis, fallback) => (axis?.title?.text ?? '').replace(/<[^>]*>/g, '').trim() || fallback;
+const axisText = (axis, fallback) => (axis?.title?.text ?? '').replaceAll('<br>', ' ').replace(/<[^>]*>/g, '').trim() || fallback;
 
 const TYPES = {
   f8: Float64Array,

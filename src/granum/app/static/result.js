@@ -29,7 +29,7 @@ export function Result({ card, values, data, old, kept, keep, clear, choose, law
         )
       : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class="n">${value(row)}${within(row) && html`<div class="small" data-interval=${row.name} title=${within(row).how}>${within(row).text}</div>`}</td></tr>`)}</tbody></table></div>`
   }
-    ${data.beside_shown.length > 0 && html`<ul class="beside">${data.beside_shown.map((row) => html`<li data-beside=${row.name} class=${row.inside ? 'dim' : 'caution'}>${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = <strong>${row.text}</strong>, ${row.place}</li>`)}</ul>`}
+    ${data.beside_shown.length > 0 && html`<ul class="beside">${data.beside_shown.map((row) => html`<li data-beside=${row.name} class=${row.inside ? 'dim' : 'caution'}>${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = <strong>${row.text}</strong>, ${row.place.replace(/ (?=× 10)|(?<=×) /g, '\u00a0')}</li>`)}</ul>`}
     <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
     <${Series} card=${card} tables=${data.series} />
     <div class="row"><button class="button" disabled=${old || kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button>

@@ -9,6 +9,7 @@ export const french = {
   'Pages': 'Pages',
   'Skip to content': 'Aller au contenu',
   'Light or dark': 'Clair ou sombre',
+  'Reading the line…': 'Lecture de la ligne…',
   'Loading…': 'Chargement…',
   'Curve': 'Courbe',
   'Save the chart as': 'Enregistrer le diagramme en',
@@ -50,9 +51,11 @@ export const french = {
   'By domain': 'Par domaine',
   '{count} cards': '{count} fiches',
   'The page is on its way…': 'La page arrive…',
+  'The calculations of the chapter are run…': 'Les calculs du chapitre tournent…',
   'The other plots and tables of this page are in the documentation site.':
     'Les autres diagrammes et tableaux de cette page sont dans la documentation en ligne.',
   'The figure is on its way…': 'La figure arrive…',
+  'The chapter of the handbook': 'Le chapitre du manuel',
   'Without: {names}. In a line these inlets can be used too.':
     'Sans : {names}. Dans une ligne, ces entrées servent aussi.',
   'Put it in a line': 'Mettre dans une ligne',
@@ -94,7 +97,7 @@ export const french = {
   'Unit of {name}': 'Unité de {name}',
   'source covers': 'domaine de la source :',
   'The connection broke off again and again.': 'La connexion a été rompue plusieurs fois de suite.',
-  'Cancelled. Change an input to calculate again.': 'Interrompu. Changez une donnée pour relancer le calcul.',
+  'Canceled. Change an input to calculate again.': 'Interrompu. Changez une donnée pour relancer le calcul.',
   'Progress': 'Avancement',
   '{seconds} s': '{seconds} s',
   'Working… what is asked for the first time takes a little longer.':
@@ -334,6 +337,8 @@ export const french = {
   '{count} cases': '{count} cas',
   '{cases} cases for {asked} samples: the next power of two, {base}, for each of {inputs} inputs and twice more.':
     '{cases} cas pour {asked} échantillons : la puissance de deux suivante, {base}, pour chacune des {inputs} données et deux fois de plus.',
+  '{cases} cases for {asked} samples: the next power of two, {base}, three times.':
+    '{cases} cas pour {asked} échantillons : la puissance de deux suivante, {base}, trois fois.',
   'Past studies of this browser': 'Études passées de ce navigateur',
   'stopped early': 'interrompue',
   'The last {count} are kept, in this browser only.':
@@ -392,6 +397,7 @@ export const french = {
   'steps': 'nombre de points',
   'Download the cases': 'Télécharger les cas',
   '{run} cases, {failed} without a result': '{run} cas, dont {failed} sans résultat',
+  '{run} cases, each with a result': '{run} cas, tous avec un résultat',
   'goes nowhere yet': 'ne va encore nulle part',
   'goes to': 'va à',
   'nowhere yet': 'nulle part encore',
@@ -404,6 +410,22 @@ export const french = {
   'Solids': 'Solides',
   'Gases and vapors': 'Gaz et vapeurs',
   'Substances': 'Substances',
+  'Describe a substance of my own': 'Décrire une substance à soi',
+  'it is': 'c’est',
+  'One of {count} sheets': 'Une des {count} feuilles',
+  'a solid': 'un solide',
+  'a liquid': 'un liquide',
+  'a gas or vapor': 'un gaz ou une vapeur',
+  'dissolved in {solvent}, crystallizing': 'un soluté qui cristallise (solvant : {solvent})',
+  'density and viscosity of its solutions as those of':
+    'masse volumique et viscosité de ses solutions comme celles de',
+  'nothing: equipment that needs the viscosity will say so':
+    'rien : l’appareil qui demande la viscosité le dira',
+  'Use this substance': 'Prendre cette substance',
+  'Use these values': 'Prendre ces valeurs',
+  'By a formula in the case file: {names}.': 'Par une formule dans le fichier du cas : {names}.',
+  'solute': 'soluté',
+  'fluid': 'fluide',
   'Remove {name}': 'Retirer {name}',
   'Add': 'Ajouter',
   '{input} is sought so that {figure} is {value}': '{input} est cherché pour que {figure} vaille {value}',
@@ -434,6 +456,7 @@ export const french = {
   'filter, dryer, cyclone…': 'filtre, séchoir, cyclone…',
   'Original size': 'Taille d’origine',
   'Findings': 'Constats',
+  'One other limit is kept.': 'Une autre limite est respectée.',
   '{count} other limits are kept.': '{count} autres limites sont respectées.',
   'All {count} practical limits are kept.': 'Les {count} limites pratiques sont toutes respectées.',
   'found': 'trouvé',

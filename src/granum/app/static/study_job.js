@@ -157,14 +157,14 @@ export function Outcome({ data, question }) {
     download('cases.csv', lines.join('\n') + '\n', 'text/csv');
   };
   return html`<div class="row spread"><div data-question><p class="small dim">${data.model}${question && ` · ${question.kind}`}</p>${question && html`<h2 class="first">${question.title}</h2>${question.rows.map((text) => html`<p class="small dim">${text}</p>`)}`}</div>${data.cases && html`<button class="button" onClick=${save}>${t('Download the cases')}</button>`}</div>
-    <p class=${counts.failed ? 'caution' : 'ok'} data-study=${data.study}>${counts.failed ? '▲' : '●'} ${t('{run} cases, {failed} without a result', { run: counts.run, failed: counts.failed })}${data.complete ? '' : ` · ${t('stopped early')}`}</p>
+    <p class=${counts.failed ? 'caution' : 'ok'} data-study=${data.study}>${counts.failed ? '▲' : '●'} ${counts.failed ? t('{run} cases, {failed} without a result', { run: counts.run, failed: counts.failed }) : t('{run} cases, each with a result', { run: counts.run })}${data.complete ? '' : ` · ${t('stopped early')}`}</p>
     ${data.warnings.map((text) => html`<p class="small caution">${text}</p>`)}
     ${data.charts.map((c) => html`<${Plot} key=${c.name} figure=${c.figure} label=${c.figure.layout.title?.text || c.name} />`)}
     ${data.tables.some((table) => table.columns.includes('P90')) && html`<p class="small dim" data-shares>${t('P10, P50, P90: a tenth, half and nine tenths of the cases lie below.')}</p>`}
     ${data.tables.map(
       (
         table,
-      ) => html`<h3>${table.title}</h3><div class="wide" tabindex="0" role="region" aria-label=${table.title}><table><thead><tr>${table.columns.map((c, i) => html`<th scope="col" class=${i ? 'n' : ''}>${c}</th>`)}</tr></thead>
-      <tbody>${table.rows.map((r) => html`<tr>${r.map((text, i) => html`<td class=${i ? 'n' : ''}>${text}</td>`)}</tr>`)}</tbody></table></div>`,
+      ) => html`<h3>${table.title}</h3><div class="wide" tabindex="0" role="region" aria-label=${table.title}><table class="stack"><thead><tr>${table.columns.map((c, i) => html`<th scope="col" class=${i ? 'n' : ''}>${c}</th>`)}</tr></thead>
+      <tbody>${table.rows.map((r) => html`<tr>${r.map((text, i) => html`<td class=${i ? 'n' : ''} data-head=${table.columns[i]}>${text}</td>`)}</tr>`)}</tbody></table></div>`,
     )}`;
 }

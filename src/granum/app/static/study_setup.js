@@ -219,7 +219,9 @@ export function question(setup, choices) {
 
 /** Why Sobol's design computes more cases than were asked for. */
 export const explained = (design) =>
-  t(
-    '{cases} cases for {asked} samples: the next power of two, {base}, for each of {inputs} inputs and twice more.',
-    design,
-  );
+  design.inputs === 1
+    ? t('{cases} cases for {asked} samples: the next power of two, {base}, three times.', design)
+    : t(
+        '{cases} cases for {asked} samples: the next power of two, {base}, for each of {inputs} inputs and twice more.',
+        design,
+      );

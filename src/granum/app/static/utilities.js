@@ -8,9 +8,9 @@ export function Utilities({ table, prices = [], build }) {
   if (table.rows.length === 0) return null;
   const label = t('Utilities');
   return html`<details data-utilities><summary>${label} <span class="dim">${table.headline[0]} ${table.headline[1]}</span></summary>
-    <div class="wide" tabindex="0" role="region" aria-label=${label}><table><thead><tr><th scope="col">${t('unit')}</th><th scope="col">${t('utility')}</th><th class="n" scope="col">${t('value')}</th>${table.priced && html`<th class="n" scope="col">${t('cost')}</th>`}</tr></thead>
-      <tbody>${table.rows.map((row) => html`<tr class=${row.counted ? '' : 'dim'} title=${row.source}><td>${pretty(row.unit)}</td><td>${row.label}</td><td class="n">${row.counted ? row.text : `(${row.text})`}</td>${table.priced && html`<td class="n" data-cost=${row.unit}>${row.cost}</td>`}</tr>`)}
-      ${[...table.carriers, ...table.totals].map(([name, text], i) => html`<tr><td>${i === 0 ? t('whole line') : ''}</td><td>${name}</td><td class="n"><strong>${text}</strong></td>${table.priced && html`<td></td>`}</tr>`)}</tbody></table></div>
+    <div class="wide" tabindex="0" role="region" aria-label=${label}><table class="stack"><thead><tr><th scope="col">${t('unit')}</th><th scope="col">${t('utility')}</th><th class="n" scope="col">${t('value')}</th>${table.priced && html`<th class="n" scope="col">${t('cost')}</th>`}</tr></thead>
+      <tbody>${table.rows.map((row) => html`<tr class=${row.counted ? '' : 'dim'} title=${row.source}><td>${pretty(row.unit)}</td><td>${row.label}</td><td class="n" data-head=${t('value')}>${row.counted ? row.text : `(${row.text})`}</td>${table.priced && html`<td class="n" data-head=${t('cost')} data-cost=${row.unit}>${row.cost}</td>`}</tr>`)}
+      ${[...table.carriers, ...table.totals].map(([name, text], i) => html`<tr><td>${i === 0 ? t('whole line') : ''}</td><td>${name}</td><td class="n" data-head=${t('value')}><strong>${text}</strong></td>${table.priced && html`<td></td>`}</tr>`)}</tbody></table></div>
     <p class="small dim">${t('Product: {stream}. In brackets: given by another unit of the line, and not counted.', { stream: table.product })}</p>
     ${build && html`<${Prices} rows=${prices.filter((row) => row.value || table.taken.includes(row.name))} build=${build} />`}</details>`;
 }

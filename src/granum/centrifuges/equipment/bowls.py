@@ -22,7 +22,7 @@ from granum.centrifuges.formulas.mechanics import (
 )
 from granum.core.errors import InputError
 from granum.core.i18n import _ as translated
-from granum.core.kinds import Length, OpenFraction, PositiveNumber, RotationSpeed, Stress
+from granum.core.kinds import Length, OpenFraction, PositiveNumber, Stress, TurningSpeed
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.settling.equipment.gravity import (
@@ -110,7 +110,7 @@ class Bowl(Unit):
 
     radius_inner: Length
     radius_outer: Length
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     _: KW_ONLY
     sediment_solids_fraction: OpenFraction = 0.5
     sigma_efficiency: PositiveNumber = 0.6

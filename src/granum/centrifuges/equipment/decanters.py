@@ -49,6 +49,7 @@ from granum.core.kinds import (
     Stress,
     SurfaceTension,
     Torque,
+    TurningSpeed,
     Within,
 )
 from granum.core.limits import Limit
@@ -141,7 +142,7 @@ class Scrolled(Bowl):
     dry_beach_length: Distance = 0.0
     beach_angle: BeachAngle = 0.17
     scroll_pitch: Length = 0.1
-    differential_speed: RotationSpeed = 20 * RPM
+    differential_speed: TurningSpeed = 20 * RPM
     friction_angle_flight: FrictionAngle = 0.15
     friction_angle_bowl: FrictionAngle = 0.5
     surface_tension: SurfaceTension = 0.072

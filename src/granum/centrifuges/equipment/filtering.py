@@ -30,8 +30,8 @@ from granum.core.kinds import (
     PositiveNumber,
     Power,
     Ratio,
-    RotationSpeed,
     Time,
+    TurningSpeed,
     VoidFraction,
 )
 from granum.core.limits import Limit
@@ -112,7 +112,7 @@ class FilteringCentrifuge(CakeMaker):
     """Abstract filtering centrifuge: a cylindrical cake between the basket wall and an inner radius."""
 
     radius_outer: Length
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     cake_resistance: CakeResistance
     void_fraction: VoidFraction
 

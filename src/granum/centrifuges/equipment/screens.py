@@ -36,8 +36,8 @@ from granum.core.kinds import (
     Fraction,
     Frequency,
     Length,
-    RotationSpeed,
     Time,
+    TurningSpeed,
     Within,
 )
 from granum.core.limits import Limit
@@ -104,7 +104,7 @@ class ScrollScreen(ConicalScreen):
     """Conical screen that a scroll empties: the stay is one pitch for each turn between scroll and basket."""
 
     scroll_pitch: Length
-    differential_speed: RotationSpeed
+    differential_speed: TurningSpeed
     _: KW_ONLY
     friction_angle: ConeAngle = 0.5
 

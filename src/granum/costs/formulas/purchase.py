@@ -13,6 +13,7 @@ from granum.costs.tables import correlations
 BASE_INDEX = 397.0
 """Plant cost index of the correlations: mid 2001."""
 KILOWATT = 1e3
+FALLING = "The printed curve falls here as the size grows, which no price does: compare, but do not optimize."
 
 
 class EquipmentCost(NamedTuple):
@@ -43,6 +44,7 @@ def _cost(
             "turton2018, table A.1",
         )
     decades = jnp.log10(value / unit)
+    flags.limit_active(row.k2 + 2.0 * row.k3 * decades < 0.0, value, name, FALLING)
     bought = 10.0 ** (row.k1 + row.k2 * decades + row.k3 * decades**2) * cost_index / BASE_INDEX
     return EquipmentCost(bought, bought * row.bare_module_factor)
 
@@ -86,8 +88,8 @@ def equipment_cost_by_area(
 
     Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
     Study estimate: ±30 %. Outside the sizes of the table the value is flagged as extrapolated. The printed
-    curve of stationary screens falls beyond 7.2 m², that of rotary and vibrating screens below 0.7 m²: do not
-    optimize there.
+    curve of stationary screens falls beyond 7.2 m², that of rotary and vibrating screens below 0.7 m²: this
+    is flagged too.
 
     >>> cost = equipment_cost_by_area(equipment_by_area="plate_and_frame_filter", area=10.0, cost_index=397.0)
     >>> f"{cost.purchased_cost:.4g} {cost.bare_module_cost:.4g}"
@@ -100,7 +102,7 @@ def equipment_cost_by_area(
     source="turton2018, eq. A.1, table A.1",
     fitted={"area": (10.0, 1000.0)},
     title="Cost of a shell-and-tube exchanger",
-    typical={"area": (20.0, 500.0)},
+    typical={"area": (25.0, 500.0)},
     equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2",
 )
 def purchased_cost_exchanger(

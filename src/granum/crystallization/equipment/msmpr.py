@@ -284,7 +284,7 @@ class Msmpr(_Evaporating, InTime):
 @equipment(
     "classified_crystallizer",
     source="randolph1988, ch. 8",
-    title="Continuous crystallizer with fines dissolution and classified product (Oslo)",
+    title="Continuous crystallizer with fines dissolution and classified product (R–Z)",
     equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau}",
 )
 class ClassifiedCrystallizer(_Evaporating):
@@ -292,8 +292,8 @@ class ClassifiedCrystallizer(_Evaporating):
     (R–Z model).
 
     A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product
-    removal evens the sizes. A fluidized bed (Oslo) is one with a strong classification. The dissolved fines
-    return with their solute, whose heat cancels.
+    removal evens the sizes. ``oslo_crystallizer`` is the fluidized bed whose sizes follow from its upflow.
+    The dissolved fines return with their solute, whose heat cancels.
     """
 
     fines_removal_ratio: PositiveNumber = 1.0

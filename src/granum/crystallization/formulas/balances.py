@@ -341,8 +341,8 @@ def crystallizer_balance_library(
     solute_mass_fraction: MassFraction,
     temperature: Temperature,
     temperature_inlet: Temperature,
+    system: str,
     evaporation: MassFlow = 0.0,
-    system: str = "sodium sulfate",
 ) -> KnownSoluteBalance:
     """Crystals, mother liquor, yield and heat duty from the solute's name: solubility, hydrate and heats come
     from the library.
@@ -352,13 +352,14 @@ def crystallizer_balance_library(
     library has no heat of solution.
 
     >>> out = crystallizer_balance_library(
-    ...     mass_flow=3000,
+    ...     mass_flow="3000 kg/h",
     ...     solute_mass_fraction=1 / 6,
     ...     temperature=283.15,
     ...     temperature_inlet=333.15,
-    ...     evaporation=50,
+    ...     system="sodium sulfate",
+    ...     evaporation="50 kg/h",
     ... )
-    >>> round(out.crystal_flow / 722, 2)
+    >>> round(out.crystal_flow * 3600 / 722, 2)
     0.99
     """
     s = solute(system)

@@ -76,7 +76,7 @@ class KnownSoluteBatch(NamedTuple):
         "solute_mass_fraction": (0.3, 0.4),
         "temperature": (280.0, 300.0),
         "temperature_inlet": (330.0, 350.0),
-        "evaporated_mass": (0.0, 0.05),
+        "evaporated_mass": (0.0, 0.06),
     },
     symbols={"temperature_inlet": "T_1"},
 )
@@ -85,8 +85,8 @@ def crystallizer_batch_balance_library(
     solute_mass_fraction: MassFraction,
     temperature: Temperature,
     temperature_inlet: Temperature,
+    system: str,
     evaporated_mass: Mass = 0.0,
-    system: str = "sodium sulfate",
 ) -> KnownSoluteBatch:
     """Crystals, yield and heat of a charge from the solute's name: solubility, hydrate and heats come from
     the library.
@@ -95,12 +95,17 @@ def crystallizer_batch_balance_library(
     decahydrate from 3000 kg.
 
     >>> out = crystallizer_batch_balance_library(
-    ...     mass=3000, solute_mass_fraction=1 / 6, temperature=283, temperature_inlet=333, evaporated_mass=50
+    ...     mass=3000,
+    ...     solute_mass_fraction=1 / 6,
+    ...     temperature=283,
+    ...     temperature_inlet=333,
+    ...     system="sodium sulfate",
+    ...     evaporated_mass=50,
     ... )
     >>> round(out.crystal_mass / 722, 1)
     1.0
     """
     found = crystallizer_balance_library.function(
-        mass, solute_mass_fraction, temperature, temperature_inlet, evaporated_mass, system
+        mass, solute_mass_fraction, temperature, temperature_inlet, system, evaporated_mass
     )
     return KnownSoluteBatch(*found)

@@ -263,7 +263,8 @@ def steady_msmpr(
 def _trial_points() -> Any:
     """Trial shares of the supersaturation: fine near both ends, where steady states crowd."""
     near = jnp.geomspace(1e-9, 0.1, SCAN // 2)
-    return jnp.concatenate([near, jnp.linspace(0.1, 0.9, SCAN // 4 + 2)[1:-1], 1.0 - near[::-2]])
+    middle = jnp.linspace(0.1, 0.9, SCAN // 4 + 2)[1:-1]
+    return jnp.concatenate([jnp.zeros(1), near, middle, 1.0 - near[::-2]])
 
 
 def _third(size: Any, length: Any) -> Any:

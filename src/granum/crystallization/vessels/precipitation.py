@@ -84,7 +84,8 @@ class SaltEquilibrium(Equilibrium):
 
     def saturated(self, contents: Ions) -> Any:
         return (
-            self.molar_mass * safe_power(self.salt.solubility_product, 1.0 / self.salt.ion_count)
+            self.molar_mass
+            * safe_power(self.salt.product_at(contents.temperature), 1.0 / self.salt.ion_count)
             + 0.0 * contents.solvent
         )
 
@@ -152,7 +153,7 @@ def precipitation_batch(
     duration: Time,
     crystal_density: Density,
     molar_mass: MolarMass,
-    salt: str = "barium sulfate",
+    salt: str,
     spectator_charge: PositiveNumber = 1.0,
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 10e-6,
@@ -163,9 +164,10 @@ def precipitation_batch(
     """Supersaturation, ions and crystals of a stirred vessel into which the reagent with the anion is run,
     mixing being perfect.
 
-    Supersaturation is on ion activities against the solubility product at 25 °C; the growth and nucleation
-    laws take its ratio. The program gives the water brought with the reagent per kg of water in the vessel;
-    the counter-ions stay dissolved and count in the ionic strength. Molalities are in mol per kg of water.
+    Supersaturation is on ion activities against the solubility product at the temperature; the growth and
+    nucleation laws take its ratio. The program gives the water brought with the reagent per kg of water in
+    the vessel; the counter-ions stay dissolved and count in the ionic strength. Molalities are in mol per kg
+    of water.
     Where mixing is slower than nucleation the crystals become more and smaller than this.
 
     >>> out = precipitation_batch(
@@ -174,6 +176,7 @@ def precipitation_batch(
     ...     duration="20 min",
     ...     crystal_density=4500,
     ...     molar_mass=0.2334,
+    ...     salt="barium sulfate",
     ...     reagent_program={"law": "constant_flow", "mass_flow": 0.1 / 1200},
     ...     growth={"law": "power_law_growth", "growth_coefficient": 4e-11, "growth_order": 2},
     ...     nucleation={

@@ -9,7 +9,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import law
-from granum.core.kinds import Length, MassRatio, PositiveNumber, PressureDifference, RotationSpeed, Speed
+from granum.core.kinds import Length, MassRatio, PositiveNumber, PressureDifference, Speed, TurningSpeed
 from granum.drying.formulas.atomizers import (
     droplet_diameter_elkotb,
     droplet_diameter_friedman,
@@ -83,7 +83,7 @@ class Wheel(AbstractAtomizer):
     142
     """
 
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     diameter: Length
     vane_height: Length
     vane_count: PositiveNumber = 24.0

@@ -24,6 +24,7 @@ from granum.drying.gas_solid.column import Zone
 from granum.drying.gas_solid.dryer import NOTES, Dried, DryerFigures, Through, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.layer import LayerDryer
+from granum.drying.gas_solid.steam import in_steam
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
@@ -83,7 +84,11 @@ class BeltDryer(LayerDryer):
     def exchange(self, feed: Stream, gas: Stream) -> Any:
         d, h, surface = solid_diameter(feed), self.heat_transfer_coefficient, self.specific_surface
         if h is None:
-            h = heat_transfer_coefficient_through_bed.function(gas.gas_flow / self.area, d)
+            h = in_steam(
+                lambda flux: heat_transfer_coefficient_through_bed.function(flux, d),
+                gas.gas_flow / self.area,
+                gas,
+            )
         if surface is None:
             surface = 6.0 / d * self.bulk_density_dry / feed.solid_density
         return h * surface / self.bulk_density_dry
@@ -92,10 +97,16 @@ class BeltDryer(LayerDryer):
         gas = gases[0]
         mass, n = self.holdup(), self.zone_count
         humid = HumidMixture(gas.mixture)
-        per_solid = humid.dry_flow(gas) / mass
+        per_solid = humid.carrier_flow(gas) / mass
         time = mass / jnp.maximum(feed.solid_flow, 1e-12) / n
         return [
-            Zone(time, per_solid, self.alternating and i % 2 == 1, humid.humidity_ratio(gas), gas.temperature)
+            Zone(
+                time,
+                per_solid,
+                self.alternating and i % 2 == 1,
+                humid.vapor_per_carrier(gas),
+                gas.temperature,
+            )
             for i in range(n)
         ]
 

@@ -33,7 +33,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.drying.balances.savings import vapor_recompression
-from granum.drying.wet_surface import boiled
+from granum.drying.wet_surface import AS_SPECIFIED, boiled
 from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import steam_enthalpy
 from granum.numerics import find_root, safe_divide
@@ -417,9 +417,7 @@ class ClosedDryer(Unit):
             "dimensionless",
             "mujumdar2014",
         ),
-        "moisture": Limit(
-            "moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"
-        ),
+        "moisture": AS_SPECIFIED["moisture"],
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     }
 

@@ -28,6 +28,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.drying.equipment.well_mixed import evaporate
+from granum.drying.wet_surface import AS_SPECIFIED
 from granum.numerics import find_root, safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
@@ -117,9 +118,7 @@ class ConvectiveDryer(Unit):
     limits: ClassVar[Limits] = {
         "humid": Limit("relative humidity of the exhaust", 0.0, 1.0, "dimensionless", "keey1978"),
         "energy": Limit("energy per water evaporated", 2.4e6, 6.5e6, "J/kg", "bonazzi2003; houdon2017"),
-        "moisture": Limit(
-            "moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"
-        ),
+        "moisture": AS_SPECIFIED["moisture"],
         "exhaust": Limit(
             "temperature of the exhaust against the specification", -1e-6, 1e-6, "delta_degC", "keey1978"
         ),

@@ -22,10 +22,10 @@ from granum.core.kinds import (
     MoistureDryBasis,
     Pressure,
     Ratio,
-    RotationSpeed,
     SpecificEnergy,
     Temperature,
     Time,
+    TurningSpeed,
 )
 from granum.core.limits import Limit
 from granum.core.units import format_number
@@ -79,7 +79,7 @@ class DrumDryer(Unit):
 
     diameter: Length
     width: Length
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     pressure_steam: Pressure
     heat_transfer_coefficient: HeatTransferCoefficient = 1200.0
     wrapped_fraction: Fraction = 0.75

@@ -18,6 +18,7 @@ from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Thr
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
+from granum.streams.atmosphere import VENTED
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.fines import fall, lifted
 from granum.streams.stream import Stream
@@ -37,7 +38,7 @@ class FlashDryer(Dryer):
     Dilute: particles do not touch. The size does not change with moisture. ``downward`` is 1 for a falling
     duct, 0.5 for a level one. With ``entrainment`` the exhaust carries the powder to the collectors of the
     line: all of it from a falling or level duct, from a rising one what falls slower than the gas flows; else
-    a perfect collector ends the duct.
+    a perfect collector ends the duct. An ``explosion_vent`` is that of the duct.
     """
 
     length: Length
@@ -49,13 +50,18 @@ class FlashDryer(Dryer):
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 60
     entrainment: bool = False
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
-    limits: ClassVar[Limits] = Dryer.limits | {
-        "velocity": Limit("gas velocity at the inlet", 15.0, 30.0, "m/s", TABLE),
-        "inlet": Limit("gas temperature at the inlet", 373.15, 623.15, "K", TABLE),
-        "outlet": Limit("gas temperature at the outlet", 343.15, 393.15, "K", TABLE),
-        "time": Limit("residence time of the solid", 0.5, 3.5, "s", TABLE),
-    }
+    limits: ClassVar[Limits] = (
+        Dryer.limits
+        | {
+            "velocity": Limit("gas velocity at the inlet", 15.0, 30.0, "m/s", TABLE),
+            "inlet": Limit("gas temperature at the inlet", 373.15, 623.15, "K", TABLE),
+            "outlet": Limit("gas temperature at the outlet", 343.15, 393.15, "K", TABLE),
+            "time": Limit("residence time of the solid", 0.5, 3.5, "s", TABLE),
+        }
+        | VENTED
+    )
 
     def extent(self) -> Any:
         return 0.25 * pi * self.diameter**2
@@ -125,7 +131,7 @@ def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> Through:
     inlet = Inlet(
         X,
         jnp.full_like(X, 1.0) * feed.temperature,
-        HumidMixture(gas.mixture).humidity_ratio(gas),
+        HumidMixture(gas.mixture).vapor_per_carrier(gas),
         gas.temperature,
     )
     matter = replace(Matter.of(dry, gas), dissolved=composition(feed))

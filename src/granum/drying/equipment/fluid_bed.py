@@ -29,6 +29,7 @@ from granum.fluidization.formulas.bubbles import (
 )
 from granum.fluidization.formulas.heat import nusselt_number_gunn
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
+from granum.streams.atmosphere import VENTED
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
@@ -53,7 +54,8 @@ class FluidBedDryer(CellDryer):
     times, so that some leave as they came. With more cells solid flows along the bed through that many tanks
     in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its way up,
     unless it is given. With ``entrainment`` the exhaust takes fines along by their elutriation constant, as
-    ``fluidization.fluidized_bed`` does; else all solid overflows.
+    ``fluidization.fluidized_bed`` does; else all solid overflows. An ``explosion_vent`` is that of the
+    chamber.
     """
 
     area: Area
@@ -65,16 +67,21 @@ class FluidBedDryer(CellDryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
     entrainment: bool = False
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
-    limits: ClassVar[Limits] = CellDryer.limits | {
-        "fluidized": Limit(
-            "gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"
-        ),
-        "velocity": Limit("gas velocity at the inlet", 0.2, 3.0, "m/s", TABLE),
-        "inlet": Limit("gas temperature at the inlet", 323.15, 473.15, "K", TABLE),
-        "time": Limit("residence time of the solid", 120.0, 3600.0, "s", TABLE),
-        "capacity": Limit("water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE),
-    }
+    limits: ClassVar[Limits] = (
+        CellDryer.limits
+        | {
+            "fluidized": Limit(
+                "gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"
+            ),
+            "velocity": Limit("gas velocity at the inlet", 0.2, 3.0, "m/s", TABLE),
+            "inlet": Limit("gas temperature at the inlet", 323.15, 473.15, "K", TABLE),
+            "time": Limit("residence time of the solid", 120.0, 3600.0, "s", TABLE),
+            "capacity": Limit("water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE),
+        }
+        | VENTED
+    )
 
     utilities: ClassVar[Utilities] = CellDryer.utilities | AREA
 
@@ -142,7 +149,7 @@ class FluidBedDryer(CellDryer):
     def bed(self, feed: Stream, gas: Stream) -> Bed:
         """The whole bed, the feed ``counted`` as dry matter and water."""
         matter = Matter.of(feed, gas)
-        dry = matter.humid.dry_flow(gas) * (1.0 - self.bypass(feed, gas))
+        dry = matter.humid.carrier_flow(gas) * (1.0 - self.bypass(feed, gas))
         time = self.mass / jnp.maximum(feed.solid_flow, 1e-12)
         return Bed(
             matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.heat_loss
@@ -150,7 +157,8 @@ class FluidBedDryer(CellDryer):
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         found, share = _fluidized(self, feed, gas), self.bypass(feed, gas)
-        vapor = gas.gas[HumidMixture(feed.mixture).vapor]
+        humid = HumidMixture(feed.mixture)
+        vapor = humid.vapor_per_carrier(gas) * humid.carrier_flow(gas)
         past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
         found = found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
         return Through(found, 1.0 * self.mass)
@@ -214,7 +222,7 @@ def _fluidized(dryer: FluidBedDryer, feed: Stream, gas: Stream) -> Profile:
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
     before, fresh = (
         Solid(X, jnp.full_like(X, 1.0) * feed.temperature),
-        Gas(bed.matter.humid.humidity_ratio(gas), jnp.asarray(gas.temperature, dtype=float)),
+        Gas(bed.matter.humid.vapor_per_carrier(gas), jnp.asarray(gas.temperature, dtype=float)),
     )
     if n == 1:
         return steady_bed(bed, before, fresh)

@@ -40,6 +40,7 @@ from granum.drying.formulas.freeze_trays import freeze_drying_tray
 from granum.drying.formulas.freezing import freezing_temperature_mean, freezing_time_pham
 from granum.drying.formulas.vials import COLDEST, SUBLIMATION_HEAT
 from granum.drying.kinds import AddedHeatTransferCoefficient, EnergyPerVolume, VaporPermeability
+from granum.drying.wet_surface import AS_SPECIFIED, as_specified
 from granum.humid_gas.pairs import ice_vapor_pressure
 from granum.numerics import find_root, safe_divide
 from granum.streams.stream import Stream
@@ -132,7 +133,7 @@ class TrayFreezeDryer(Unit):
         "load": Limit("wet product per tray area", 5.0, 18.0, "kg/m^2", "houdon2017"),
         "layer": Limit("thickness of the layer", 1.0, 30.0, "mm", "houdon2017"),
         "time": Limit("drying time of a batch", 36000.0, 259200.0, "s", "houdon2017"),
-    }
+    } | AS_SPECIFIED
 
     utilities: ClassVar[Utilities] = HEATED | COOLED | AREA | {"electric_power_vacuum": Utility(PUMP_SOURCE)}
 
@@ -259,7 +260,7 @@ class TrayFreezeDryer(Unit):
             "load": self.load_per_area,
             "layer": self.thickness * 1e3,
             "time": figures.drying_time_primary + figures.drying_time_secondary,
-        }
+        } | as_specified(feed, self.moisture_outlet)
 
     def drawn(
         self, inside: None, outlets: FreezeDried, figures: TrayFreezeFigures, feed: Stream

@@ -29,11 +29,11 @@ from granum.core.kinds import (
     PositiveNumber,
     Pressure,
     Ratio,
-    RotationSpeed,
     SpecificEnergy,
     Temperature,
     ThermalConductivity,
     Time,
+    TurningSpeed,
 )
 from granum.core.limits import Limit
 from granum.core.units import format_number
@@ -47,7 +47,7 @@ from granum.drying.formulas.contact_drying import (
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
 from granum.drying.gas_solid.dryer import ready
 from granum.drying.profile_charts import contact_chart
-from granum.drying.wet_surface import boiled
+from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled
 from granum.numerics import Root, find_root, safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
@@ -135,7 +135,7 @@ class PaddleDryer(Unit):
     moisture_outlet: MoistureDryBasis
     pressure: Pressure
     particle_diameter: Length
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     diameter: Length
     dry_mass_per_area: MassPerArea = 40.0
     bulk_density: Density = 700.0
@@ -156,7 +156,7 @@ class PaddleDryer(Unit):
         "time": Limit("residence time of the bed", 600.0, 36000.0, "s", "houdon2017"),
         "dry": Limit("moisture of the product above equilibrium", 0.0, 1e3, "kg/kg", "keey1978"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
-    }
+    } | AS_SPECIFIED
 
     utilities: ClassVar[Utilities] = HEATED | AREA | {"electric_power_drive": Utility(TURNED)}
 
@@ -338,7 +338,7 @@ class PaddleDryer(Unit):
             "capacity": figures.evaporation_per_area * 3600.0,
             "time": figures.residence_time,
             "dry": self.moisture_outlet - self.equilibrium_moisture,
-        }
+        } | as_specified(feed, self.moisture_outlet)
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product - self.temperature_limit
         return found

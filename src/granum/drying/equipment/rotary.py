@@ -15,8 +15,8 @@ from granum.core.kinds import (
     Length,
     PositiveNumber,
     Power,
-    RotationSpeed,
     Temperature,
+    TurningSpeed,
     Within,
 )
 from granum.core.limits import Limit
@@ -30,6 +30,7 @@ from granum.drying.gas_solid.cells import Contact, Network
 from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.matter import Matter
+from granum.drying.gas_solid.steam import in_steam
 from granum.streams.cakes import solid_diameter
 from granum.streams.fines import fall, finest, showered
 from granum.streams.stream import Stream
@@ -38,6 +39,7 @@ from granum.streams.utilities import HEAT_APPROACH, HEATED, driven, heated
 
 TABLE = NOTES.format(table="IV.6")
 SHELL, STEEL = 0.01, 7850.0  # thickness of the shell with flights over the diameter, kg/m³
+LEAST = 1e-12  # kg/s of solid, of a drum that runs empty
 
 
 @equipment(
@@ -60,7 +62,7 @@ class RotaryDryer(CellDryer):
     diameter: Length
     kinetics: Annotated[Any, Law("drying_kinetics")]
     drum_slope: Fraction = 0.04
-    rotation_speed: RotationSpeed = 0.4
+    rotation_speed: TurningSpeed = 0.4
     gas_direction: Literal["counter-current", "co-current"] = "counter-current"
     transfer_constant: PositiveNumber = 237.0
     transfer_exponent: PositiveNumber = 0.67
@@ -117,29 +119,27 @@ class RotaryDryer(CellDryer):
             self.rotation_speed,
             solid_diameter(feed),
             gas.gas_flow / self.section,
-            jnp.maximum(feed.solid_flow, 1e-12) / self.section,
+            jnp.maximum(feed.solid_flow, LEAST) / self.section,
             against,
         )
 
     def contact(self, feed: Stream, gas: Stream) -> Contact:
         n, F = self.cells, feed.solid_by_size
         time = self.passage(feed, gas)
+        held = jnp.maximum(jnp.sum(F), LEAST) * time
         solid = jnp.broadcast_to(F * time / n, (n, F.shape[0]))
-        Ua = volumetric_heat_transfer_rotary.function(
-            gas.gas_flow / self.section, self.diameter, self.transfer_constant, self.transfer_exponent
-        )
+
+        def by_volume(flux: Any) -> Any:
+            return volumetric_heat_transfer_rotary.function(
+                flux, self.diameter, self.transfer_constant, self.transfer_exponent
+            )
+
+        Ua = in_steam(by_volume, gas.gas_flow / self.section, gas)
         # every class takes heat in proportion to its mass
-        exchange = Ua * self.extent() / (jnp.sum(F) * time)
+        exchange = Ua * self.extent() / held
         wall = 0.0
         if self.wall_coefficient is not None:
-            wall = (
-                self.wall_coefficient
-                * self.wetted_share
-                * pi
-                * self.diameter
-                * self.length
-                / (jnp.sum(F) * time)
-            )
+            wall = self.wall_coefficient * self.wetted_share * pi * self.diameter * self.length / held
         matter = Matter.of(feed, gas)
         network = (
             Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
@@ -149,7 +149,7 @@ class RotaryDryer(CellDryer):
             self.kinetics,
             solid,
             jnp.full_like(solid, 1.0) * n / time,
-            matter.humid.dry_flow(gas),
+            matter.humid.carrier_flow(gas),
             network,
             lambda X, Ts, Tg, Y: exchange,
             wall,

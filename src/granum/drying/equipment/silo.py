@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.flags import unsolved
 from granum.core.kinds import (
     Density,
     Fraction,
@@ -28,6 +29,8 @@ from granum.drying.gas_solid.dryer import NOTES, DryerFigures, Through, dried, r
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.layer import LayerDryer, joined
 from granum.drying.gas_solid.liquor import counted
+from granum.drying.gas_solid.steam import is_steam
+from granum.streams.atmosphere import VENTED
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.fines import finest
@@ -36,6 +39,10 @@ from granum.streams.units import Limits
 
 TABLE = NOTES.format(table="IV.12")
 COLUMN_DUST = 1.1e-4  # of the grain
+NO_STEAM = (
+    "Grain in a silo is not dried in steam, which condenses in it layer after layer: give air at the port "
+    "'gas', or dry in steam in a belt, rotary, flash or fluidized-bed dryer."
+)
 
 
 class DriedGrain(NamedTuple):
@@ -58,7 +65,8 @@ class SiloDryer(LayerDryer):
     other side. Without air at the port ``cooling`` there is no cooling zone; its air leaves as ``warmed_air``
     and may feed the heater in the flowsheet. With ``entrainment`` the exhaust takes along the
     ``dusting_fraction`` of the grain, the finest of it: 0.11 kg a tonne of column dryers, 1.5 of rack dryers
-    (AP-42, table 9.9.1-1, recalled).
+    (AP-42, table 9.9.1-1, recalled). An ``explosion_vent`` is that of the room that the air and the dust of
+    the grain pass, whatever the size classes are.
     """
 
     volume: Volume
@@ -74,12 +82,17 @@ class SiloDryer(LayerDryer):
     steps: Annotated[int, Within(1, 100_000)] = 50
     entrainment: bool = False
     dusting_fraction: Fraction = COLUMN_DUST
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
-    limits: ClassVar[Limits] = LayerDryer.limits | {
-        "inlet": Limit("gas temperature at the inlet", 303.15, 383.15, "K", "brooker1992"),
-        "time": Limit("residence time of the grain", 900.0, 4 * 86400.0, "s", TABLE),
-        "pressure": Limit("air pressure lost in the grain", 0.0, 2500.0, "Pa", "brooker1992"),
-    }
+    limits: ClassVar[Limits] = (
+        LayerDryer.limits
+        | {
+            "inlet": Limit("gas temperature at the inlet", 303.15, 383.15, "K", "brooker1992"),
+            "time": Limit("residence time of the grain", 900.0, 4 * 86400.0, "s", TABLE),
+            "pressure": Limit("air pressure lost in the grain", 0.0, 2500.0, "Pa", "brooker1992"),
+        }
+        | VENTED
+    )
 
     def extent(self) -> Any:
         return self.volume
@@ -110,8 +123,8 @@ class SiloDryer(LayerDryer):
         share = 1.0 - self.cooling_share if cooled else 1.0
 
         def zone(gas: Stream, part: Any, flow_part: Any, backwards: bool) -> Zone:
-            per_solid = humid.dry_flow(gas) * flow_part / (mass * part)
-            return Zone(time * part, per_solid, backwards, humid.humidity_ratio(gas), gas.temperature)
+            per_solid = humid.carrier_flow(gas) * flow_part / (mass * part)
+            return Zone(time * part, per_solid, backwards, humid.vapor_per_carrier(gas), gas.temperature)
 
         halves = 2 if self.turned else 1
         hot = [zone(gases[0], share / halves, 1.0 / halves, i == 1) for i in range(halves)]
@@ -121,6 +134,7 @@ class SiloDryer(LayerDryer):
         return finest(product, self.dusting_fraction) if self.entrainment else None
 
     def through(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> Through:
+        unsolved(~is_steam(gas), type(self).card, reason=NO_STEAM)
         return _grain(self, feed, gas, cooling)
 
     def outlets(

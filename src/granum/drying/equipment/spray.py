@@ -33,6 +33,7 @@ from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
 from granum.numerics import safe_divide
+from granum.streams.atmosphere import VENTED
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.fines import fall, held
 from granum.streams.stream import Stream
@@ -41,6 +42,7 @@ from granum.streams.utilities import driven
 
 TABLE = NOTES.format(table="IV.2")
 GROWTH = 1.08  # of the cells from the atomizer on
+LEAST = 1e-9  # kg/s of feed, of an atomizer that runs dry
 
 
 @equipment("spray_dryer", source="masters1991; chen2008rea; langrish2009", title="Spray dryer")
@@ -53,7 +55,7 @@ class SprayDryer(Dryer):
     between cells over through-flow, up to some tens; plug flow without it. With ``entrainment`` the exhaust
     takes fines along, by their terminal velocity against the gas in the section; else all powder falls out.
     Fines that come back at the port ``fines`` all stick to drops at the atomizer, in proportion to these: the
-    agglomerates are larger and start less wet.
+    agglomerates are larger and start less wet. An ``explosion_vent`` is that of the chamber.
     """
 
     length: Length
@@ -69,14 +71,19 @@ class SprayDryer(Dryer):
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 50
     entrainment: bool = False
+    explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
-    limits: ClassVar[Limits] = Dryer.limits | {
-        "inlet": Limit("gas temperature at the inlet", 373.15, 873.15, "K", TABLE),
-        "outlet": Limit("gas temperature at the outlet", 333.15, 473.15, "K", TABLE),
-        "time": Limit("residence time of the gas", 10.0, 30.0, "s", TABLE),
-        "capacity": Limit("water evaporated per volume and hour", 1.0, 30.0, "kg/(hour*m^3)", TABLE),
-        "slender": Limit("height over diameter of the chamber", 0.6, 5.0, "dimensionless", "masters1991"),
-    }
+    limits: ClassVar[Limits] = (
+        Dryer.limits
+        | {
+            "inlet": Limit("gas temperature at the inlet", 373.15, 873.15, "K", TABLE),
+            "outlet": Limit("gas temperature at the outlet", 333.15, 473.15, "K", TABLE),
+            "time": Limit("residence time of the gas", 10.0, 30.0, "s", TABLE),
+            "capacity": Limit("water evaporated per volume and hour", 1.0, 30.0, "kg/(hour*m^3)", TABLE),
+            "slender": Limit("height over diameter of the chamber", 0.6, 5.0, "dimensionless", "masters1991"),
+        }
+        | VENTED
+    )
 
     utilities: ClassVar[Utilities] = Dryer.utilities | {"electric_power_atomizer": Utility("masters1991")}
 
@@ -92,8 +99,8 @@ class SprayDryer(Dryer):
         """The feed as the atomizer meets it."""
         flow = feed.solid_flow + feed.liquid_flow
         return Liquor(
-            flow,
-            flow / feed.slurry_volume_flow,
+            jnp.maximum(flow, LEAST),
+            safe_divide(flow, feed.slurry_volume_flow, otherwise=self.dry_density),
             self.dynamic_viscosity,
             self.surface_tension,
             gas.gas_density,
@@ -213,7 +220,7 @@ def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream, fines: Stream | None)
     inlet = Inlet(
         X,
         jnp.full_like(X, 1.0) * whole.temperature,
-        HumidMixture(gas.mixture).humidity_ratio(gas),
+        HumidMixture(gas.mixture).vapor_per_carrier(gas),
         gas.temperature,
     )
     network = Network.co_current(dryer.cells)

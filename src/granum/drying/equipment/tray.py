@@ -44,7 +44,7 @@ from granum.drying.gas_solid.column import Zone, mean_moisture, pass_zones
 from granum.drying.gas_solid.dryer import ready
 from granum.drying.gas_solid.kinetics import VanMeelKinetics
 from granum.drying.gas_solid.matter import Matter
-from granum.drying.wet_surface import boiled
+from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
@@ -149,7 +149,7 @@ class TrayDryer(Unit):
         ),
         "recycle": Limit("recirculated share of the air", 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
-    } | FLAMMABLE
+    } | (FLAMMABLE | AS_SPECIFIED)
 
     utilities: ClassVar[Utilities] = HEATED | HOT_GAS | AREA | {"electric_power_fan": Utility(HEADS)}
 
@@ -262,7 +262,7 @@ class TrayDryer(Unit):
             "humid": figures.relative_humidity,
             "reached": self.moisture_outlet - inside["Xe"],
             "recycle": figures.recirculated_fraction,
-        } | flammable(outlets.exhaust)
+        } | (flammable(outlets.exhaust) | as_specified(feed, self.moisture_outlet))
         if self.temperature_limit is not None:
             found["hot"] = self.temperature_inlet - self.temperature_limit
         return found

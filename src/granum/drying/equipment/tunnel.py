@@ -24,6 +24,7 @@ from granum.drying.gas_solid.cells import Contact, Network
 from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.matter import Matter
+from granum.drying.gas_solid.steam import in_steam
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
@@ -64,7 +65,7 @@ class TunnelDryer(CellDryer):
         solid = jnp.broadcast_to(F * self.residence_time / n, (n, F.shape[0]))
         h = self.heat_transfer_coefficient
         if h is None:
-            h = heat_transfer_coefficient_parallel.function(gas.gas_flow / self.free_area)
+            h = in_steam(heat_transfer_coefficient_parallel.function, gas.gas_flow / self.free_area, gas)
         exchange = h * self.surface_per_mass
         matter = Matter.of(feed, gas)
         network = (
@@ -75,7 +76,7 @@ class TunnelDryer(CellDryer):
             self.kinetics,
             solid,
             jnp.full_like(solid, 1.0) * n / self.residence_time,
-            matter.humid.dry_flow(gas),
+            matter.humid.carrier_flow(gas),
             network,
             lambda X, Ts, Tg, Y: exchange,
             heat_loss=self.heat_loss / n,

@@ -10,7 +10,9 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
+from granum.core.errors import CaseError
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     HumidityRatio,
@@ -195,7 +197,11 @@ def evaporate(wet: Stream, share: Any) -> Stream:
     m = wet.mixture
     fluids = m.materials.names("fluid")
     for solute in m.liquids[1:]:
-        if solute.name not in fluids:
-            m.index("solids", solute.name)  # says which one is missing
+        if solute.name not in fluids and solute.name not in [s.name for s in m.solids]:
+            raise CaseError(
+                _("'{solute}' stays where its liquid dries: add it to the solids of the mixture.").format(
+                    solute=solute.name
+                )
+            )
     gas = wet.gas.at[HumidMixture(m).vapor].add(wet.liquid[0] * share)
     return crystallized(wet, share).replace(gas=gas)

@@ -259,7 +259,7 @@ def heat_duty_radiation(
     emissivity_radiator: Fraction = 0.9,
     view_factor: Fraction = 1.0,
 ) -> Power:
-    """Grey exchange between a product and the heater that surrounds it, as in the notes D II.5 and II.6.
+    """Gray exchange between a product and the heater that surrounds it, as in the notes D II.5 and II.6.
 
     Differs from the print: with (T/100)⁴ the constant is 5.67 W/(m² K⁴), not 5.67e-8; both temperatures are
     absolute.

@@ -201,7 +201,7 @@ class Contact(eqx.Module):
         X, _H, Y, _Hg = unpacked(u)
         Ts, Tg = self.temperatures(u)
         Y, Tg = Y[:, None], Tg[:, None]
-        exchange = jnp.broadcast_to(self.exchange(X, Ts, Tg, Y), X.shape)
+        exchange = jnp.broadcast_to(self.exchange(X, Ts, Tg, Y) * self.matter.left_over(Y), X.shape)
         return Meeting(X, Ts, Tg, Y, exchange, self.matter)
 
     def _transfer(self, u: Cells) -> tuple[Any, Any, Any, Any]:

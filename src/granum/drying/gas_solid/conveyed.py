@@ -109,7 +109,7 @@ def convey(
     the other.
     """
     n, m = path.steps.shape[0], path.dry_size.shape[0]
-    dry = matter.humid.dry_flow(gas)
+    dry = matter.humid.carrier_flow(gas)
     shape = (m,)
     viscosity_of, conductivity_of = gas.mixture.gas_viscosity, gas.mixture.gas_conductivity
     assert viscosity_of is not None
@@ -118,7 +118,7 @@ def convey(
     def contact(times: Any, slip: Any, network: Network, lengths: Any) -> Contact:
         def exchange(X: Any, Ts: Any, Tg: Any, Y: Any) -> Any:
             film = 0.5 * (Ts + Tg)
-            conductivity, viscosity = conductivity_of(film), viscosity_of(film)
+            conductivity, viscosity = (of(matter.gas_shares, film) for of in (conductivity_of, viscosity_of))
             size = wet_size(path, X)
             density = matter.gas_density(film, Y) * (1.0 + Y)
             prandtl = matter.gas_heat_capacity(film, Y) * viscosity / conductivity
@@ -138,7 +138,11 @@ def convey(
         gas_speed = dry / (density * path.section)
         before = jnp.concatenate([jnp.broadcast_to(first, (1, m)), own[:-1]])
         ends, times = relaxed(
-            path, Flight(gas_speed, density * (1.0 + Y), viscosity_of(Tg), lengths), before, own, X
+            path,
+            Flight(gas_speed, density * (1.0 + Y), viscosity_of(matter.gas_shares, Tg), lengths),
+            before,
+            own,
+            X,
         )
         slip = jnp.hypot(gas_speed - 0.5 * (before + own), SLOWEST)
         return contact(times, slip, network, lengths), (ends - own) / times, times

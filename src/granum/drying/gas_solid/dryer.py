@@ -26,6 +26,7 @@ from granum.core.kinds import (
     Ratio,
     SignedMassFlow,
     Temperature,
+    TemperatureDifference,
     Time,
 )
 from granum.core.limits import Limit
@@ -35,7 +36,7 @@ from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting
 from granum.drying.gas_solid.liquor import composition, counted, moistened
 from granum.drying.gas_solid.matter import Matter, temperature_at
 from granum.numerics import safe_divide
-from granum.streams.atmosphere import EXPLOSIBLE, FLAMMABLE, explosible, flammable
+from granum.streams.atmosphere import EXPLOSIBLE, FLAMMABLE, explosible, flammable, vented
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.fines import taken
 from granum.streams.stream import Stream
@@ -96,6 +97,7 @@ class DryerFigures(NamedTuple):
     temperature_exhaust: Temperature
     humidity_ratio: HumidityRatio
     relative_humidity: Ratio
+    superheat: TemperatureDifference
     solid_holdup: Mass
     residence_time: Time
     heat_duty: Power
@@ -125,6 +127,8 @@ class Dryer(Unit):
 
         @property
         def temperature_limit(self) -> Any: ...
+
+    explosion_vent = None  # of those that have one
 
     limits: ClassVar[Limits] = {
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
@@ -194,6 +198,7 @@ class Dryer(Unit):
             temperature_exhaust=exhaust.temperature,
             humidity_ratio=humid.humidity_ratio(exhaust),
             relative_humidity=humid.relative_humidity(exhaust),
+            superheat=humid.superheat(exhaust),
             solid_holdup=inside.holdup,
             residence_time=safe_divide(inside.holdup, feed.solid_flow),
             heat_duty=outlets.heat_duty,
@@ -206,6 +211,8 @@ class Dryer(Unit):
             "humid": figures.relative_humidity,
             "over": figures.moisture_dry_basis - equilibrium(self.kinetics, feed, gas),
         } | (flammable(outlets.exhaust) | explosible(outlets.exhaust))
+        dusty = outlets.exhaust.replace(solid=outlets.exhaust.solid + outlets.product.solid)
+        found |= vented(dusty, self.explosion_vent, coarse=True)
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product_highest - self.temperature_limit
         return found
@@ -254,7 +261,7 @@ class CellDryer(Dryer):
         return Inlet(
             X,
             jnp.full_like(X, 1.0) * feed.temperature,
-            HumidMixture(gas.mixture).humidity_ratio(gas),
+            HumidMixture(gas.mixture).vapor_per_carrier(gas),
             gas.temperature,
         )
 
@@ -303,14 +310,13 @@ def dried_moisture(outlets: Any, gas: Stream) -> Any:
 
 def parted(feed: Stream, dissolved: Any, gas: Stream, found: Profile) -> Dried:
     """The same for a feed already ``counted``."""
-    vapor = HumidMixture(feed.mixture).vapor
-    dry = gas.gas.at[vapor].set(0.0)
+    humid = HumidMixture(feed.mixture)
     stray_feed, stray_gas = feed.part(gas=1.0), gas.part(solid=1.0, liquid=1.0)
     product = moistened(feed, jnp.sum(found.water), dissolved).replace(
         gas=0.0 * feed.gas, pressure=gas.pressure
     )
     exhaust = gas.replace(
-        gas=dry.at[vapor].set(found.vapor) + stray_feed.gas,
+        gas=humid.carrying(gas).at[humid.vapor].add(found.vapor) + stray_feed.gas,
         solid=stray_gas.solid,
         liquid=stray_gas.liquid,
     )
@@ -336,7 +342,7 @@ def equilibrium(kinetics: AbstractKinetics, feed: Stream, gas: Stream) -> Any:
     """Moisture of the product in equilibrium with the gas that enters."""
     feed = counted(feed)
     matter = Matter.of(feed, gas)
-    Y = matter.humid.humidity_ratio(gas)
+    Y = matter.humid.vapor_per_carrier(gas)
     X = jnp.full((1,), 1.0) * feed.moisture_dry_basis
     at = Meeting(X, gas.temperature + 0.0 * X, gas.temperature + 0.0 * X, Y + 0.0 * X, 1.0 + 0.0 * X, matter)
     return kinetics.equilibrium(at)[0]

@@ -24,7 +24,7 @@ from granum.core.kinds import (
     Temperature,
 )
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
-from granum.drying.gas_solid.matter import NEAR_BOILING, Matter
+from granum.drying.gas_solid.matter import Matter
 from granum.drying.isotherms.base import AbstractIsotherm
 from granum.drying.thin_layers.base import AbstractThinLayer
 from granum.numerics import find_root
@@ -68,7 +68,7 @@ class Meeting(NamedTuple):
     def film_rate(self, activity: Any = 1.0) -> Any:
         """Rate of a surface of given water activity at the temperature of the solid."""
         pressure = activity * self.matter.saturation_pressure(self.temperature)
-        return self.conductance * self.matter.driving_force(pressure, self.humidity)
+        return self.conductance * self.matter.driving_force(pressure, self.matter.fraction(self.humidity))
 
     @property
     def relative_humidity(self) -> Any:
@@ -91,16 +91,16 @@ class Meeting(NamedTuple):
         m = self.matter
         T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
         # gas beyond saturation is its own wet bulb
-        q = jnp.minimum(m.saturation_pressure(T) / m.pressure, NEAR_BOILING)
-        Y = jnp.where(q < NEAR_BOILING, jnp.minimum(Y, m.molar_mass_ratio * q / (1.0 - q) * (1.0 - LEAST)), Y)
+        y = jnp.minimum(m.fraction(Y), m.saturation_pressure(T) / m.pressure * (1.0 - LEAST))
+        conductance = 1.0 / (m.humid.lewis_factor * m.gas_heat_capacity(T, Y))
 
-        def balance(Ts: Any, T: Any, Y: Any) -> Any:
+        def balance(Ts: Any, T: Any, y: Any, conductance: Any) -> Any:
             pressure = m.saturation_pressure(Ts)
             heat = _stefan(m.vapor_heat_capacity(Ts), m.heat_of_vaporization(Ts), T - Ts)
-            return heat - m.driving_force(pressure, Y) / (m.humid.lewis_factor * m.gas_heat_capacity(T, Y))
+            return heat - conductance * m.driving_force(pressure, y)
 
         return find_root(
-            balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0, tolerance=EXACT
+            balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, y, conductance, start=310.0, tolerance=EXACT
         ).value
 
 
@@ -196,6 +196,8 @@ class VanMeelKinetics(_Curved):
     """Rate of a wet surface at the wet bulb of the local gas times the characteristic curve: van Meel's own
     statement.
 
+    In steam it does not exceed that of the film, which wets a feed colder than boiling.
+
     >>> float(VanMeelKinetics(critical_moisture=0.2)())
     0.2
     """
@@ -207,6 +209,7 @@ class VanMeelKinetics(_Curved):
         wet = at.exchange * _stefan(
             m.vapor_heat_capacity(Tw), m.heat_of_vaporization(Tw), at.gas_temperature - Tw
         )
+        wet = jnp.where(m.is_steam, jnp.minimum(wet, at.film_rate()), wet)
         return _hindered(wet, self._phi(at), self.characteristic_rate, at.conductance)
 
 

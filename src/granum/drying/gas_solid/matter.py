@@ -26,16 +26,17 @@ NEWTON_STEPS = 4
 LIQUID = (200.0, 640.0)  # K
 # of the pressure, from which on the driving force goes on as a straight line instead of to infinity
 NEAR_BOILING = 0.98
+NO_DRY_GAS = 1e-9  # of the carrier
 
 
 class Matter(eqx.Module):
-    """Dry solid by class, its liquid, dry gas and vapor. Moisture X and humidity Y are per dry mass;
-    enthalpies too, J/kg.
+    """Dry solid by class, its liquid, a gas and vapor. Moisture X is per dry solid, humidity Y per carrier:
+    the dry gas, or the steam that entered; enthalpies too, J/kg.
     """
 
     mixture: Mixture = eqx.field(static=True)
     solid_shares: Any  # species × classes, each class adding up to 1
-    gas_shares: Any  # of the dry gas; the vapor's share is zero
+    gas_shares: Any  # of the carrier; the vapor's share is zero, or that in steam
     pressure: Any
     # per kg of the liquid that can leave, one for each further liquid: what crystallizes as it does
     dissolved: Any = ()
@@ -46,13 +47,13 @@ class Matter(eqx.Module):
         m = feed.mixture
         if not m.solids:
             raise InputError(_("A dryer needs a mixture with solids."))
-        vapor = HumidMixture(m).vapor
+        humid = HumidMixture(m)
         by_class = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         overall = safe_divide(jnp.sum(by_class, axis=1), jnp.sum(by_class), 1.0 / len(m.solids))
         total = jnp.sum(by_class, axis=0)
         shares = jnp.where(total > 0, by_class / jnp.where(total > 0, total, 1.0), overall[:, None])
-        dry = gas.gas.at[vapor].set(0.0)
-        return cls(m, shares, dry / jnp.sum(dry), gas.pressure)
+        carrier = humid.carrying(gas)
+        return cls(m, shares, carrier / jnp.sum(carrier), gas.pressure)
 
     @property
     def humid(self) -> HumidMixture:
@@ -87,7 +88,7 @@ class Matter(eqx.Module):
         return self.mixture.gases[self.vapor].enthalpy(T)
 
     def gas_enthalpy(self, T: Any) -> Any:
-        """Dry gas."""
+        """The carrier."""
         return jnp.tensordot(self.gas_shares, self.mixture.enthalpies("gases", T), axes=1)
 
     def moist_solid(self, T: Any, X: Any) -> Any:
@@ -95,7 +96,7 @@ class Matter(eqx.Module):
         return self.solid_enthalpy(T) + X * self.liquid_enthalpy(T)
 
     def moist_gas(self, T: Any, Y: Any) -> Any:
-        """Gas with its vapor, per kg dry."""
+        """Gas with its vapor, per kg of the carrier."""
         return self.gas_enthalpy(T) + Y * self.vapor_enthalpy(T)
 
     def solid_temperature(self, H: Any, X: Any) -> Any:
@@ -119,14 +120,35 @@ class Matter(eqx.Module):
         return self.vapor_enthalpy(T) - self.liquid_enthalpy(T)
 
     @property
+    def is_steam(self) -> Any:
+        """Whether the vapor carries itself."""
+        return self.gas_shares[self.vapor] > 0.0
+
+    @property
     def molar_mass_ratio(self) -> Any:
-        """Vapor over dry gas."""
+        """Vapor over dry gas; one where there is none."""
+        vapor = self.gas_shares[self.vapor]
+        dry = 1.0 - vapor
+        moles = self._carrier_moles - vapor
+        return jnp.where(dry > NO_DRY_GAS, moles / jnp.where(dry > NO_DRY_GAS, dry, 1.0), 1.0)
+
+    @property
+    def _carrier_moles(self) -> Any:
+        """In a kilogram of the carrier, over those in a kilogram of vapor."""
         moles = sum(self.gas_shares[i] / g.molar_mass for i, g in enumerate(self.mixture.gases))
         return self.mixture.gases[self.vapor].molar_mass * moles
 
+    def left_over(self, Y: Any) -> Any:
+        """Share of the steam that condensation has left to give heat; one for a gas that carries vapor."""
+        return jnp.where(self.is_steam, jnp.clip(1.0 + Y, NO_DRY_GAS, 1.0), 1.0)
+
+    def fraction(self, Y: Any) -> Any:
+        """Mole fraction of the vapor."""
+        return (self.gas_shares[self.vapor] + Y) / (self._carrier_moles + Y)
+
     def relative_humidity(self, T: Any, Y: Any) -> Any:
         """Partial pressure of the vapor over its saturation pressure."""
-        return Y / (self.molar_mass_ratio + Y) * self.pressure / self.saturation_pressure(T)
+        return self.fraction(Y) * self.pressure / self.saturation_pressure(T)
 
     def saturation_pressure(self, T: Any) -> Any:
         """Of the liquid; held at the ends of a range which only a search on its way to the solution
@@ -134,23 +156,29 @@ class Matter(eqx.Module):
         """
         return self.humid.saturation_pressure(jnp.clip(T, *LIQUID))
 
-    def driving_force(self, partial_pressure: Any, Y: Any) -> Any:
-        """ln[(1 + Y_s)/(1 + Y)]: Stefan flow in a film whose surface has this partial pressure of vapor."""
+    def driving_force(self, partial_pressure: Any, fraction: Any) -> Any:
+        """ln[(1 − w)/(1 − w_s)] of the mass fractions of vapor: Stefan flow in a film from a surface that has
+        this partial pressure to gas of a mole fraction.
+
+        Near pure vapor the logarithm goes on straight at either side, so that a surface in steam is as good
+        as boiling: within 0.1 K for a gas 100 K hotter.
+        """
         ratio = self.molar_mass_ratio
 
         def log_of(q: Any) -> Any:
             return jnp.log1p(ratio * q / (1.0 - q))
 
-        q = partial_pressure / self.pressure
-        end = jnp.asarray(NEAR_BOILING) + 0.0 * q
-        value, rise = slope(log_of, end)
-        low = log_of(jnp.minimum(q, NEAR_BOILING))
-        return jnp.where(q < NEAR_BOILING, low, value + rise * (q - NEAR_BOILING)) - jnp.log1p(Y)
+        def continued(q: Any) -> Any:
+            value, rise = slope(log_of, jnp.asarray(NEAR_BOILING) + 0.0 * q)
+            low = log_of(jnp.minimum(q, NEAR_BOILING))
+            return jnp.where(q < NEAR_BOILING, low, value + rise * (q - NEAR_BOILING))
+
+        return continued(partial_pressure / self.pressure) - continued(fraction)
 
     def gas_density(self, T: Any, Y: Any) -> Any:
-        """Dry gas per volume of moist gas, kg/m³."""
-        mean = self.mixture.gases[self.vapor].molar_mass / self.molar_mass_ratio
-        return self.pressure * mean / (GAS_CONSTANT * T * (1.0 + Y / self.molar_mass_ratio))
+        """Carrier per volume of gas, kg/m³."""
+        vapor = self.mixture.gases[self.vapor].molar_mass
+        return self.pressure * vapor / (GAS_CONSTANT * T * (self._carrier_moles + Y))
 
 
 def slope(function: Callable[[Any], Any], T: Any) -> tuple[Any, Any]:

@@ -40,6 +40,7 @@ COOLER = WARMER = 5.0
 CONDENSING = 2500.0  # K by which gas is warmed, per humidity, at most, if its vapor goes into the solid
 ENTHALPY = 1e5  # J/kg
 DEW_STEPS = 5
+MOST_CONDENSED = 0.999  # of steam
 NEARLY, GUESSES = 0.9, 8  # relative humidity of the guess; its halvings
 # of Gauss and Legendre between 0 and 1
 _NODES, _WEIGHTS = (0.5 * (1.0 - 3.0**-0.5), 0.5 * (1.0 + 3.0**-0.5)), (0.5, 0.5)
@@ -134,7 +135,11 @@ class Bed(eqx.Module):
 
     def meeting(self, X: Any, T: Any, gas: Gas, wet_bulb: Any) -> Meeting:
         """Where this solid meets the gas."""
-        return Meeting(X, T, gas.temperature, gas.humidity, self.exchange, self.matter, wet_bulb)
+        return Meeting(X, T, gas.temperature, gas.humidity, self.given(gas), self.matter, wet_bulb)
+
+    def given(self, gas: Gas) -> Any:
+        """The exchange with this gas."""
+        return self.exchange * self.matter.left_over(gas.humidity)
 
     def lived(
         self, before: Solid, gas: Gas, known: tuple[Any, Any], spread: Any, most: Any, start: Any
@@ -144,7 +149,7 @@ class Bed(eqx.Module):
         """
         rest, bulb = known
         X0, T0 = before
-        m, warm = self.matter, gas.temperature
+        m, warm, exchange = self.matter, gas.temperature, self.given(gas)
         H0 = m.moist_solid(T0, X0)
 
         def temperature(loss: Any) -> Any:
@@ -154,7 +159,7 @@ class Bed(eqx.Module):
             rate = gone / (s.whole * self.time)
 
             def surplus(T: Any) -> Any:
-                heat = self.exchange * hindered(m, rate, T, self.exchange) * (warm - T)
+                heat = exchange * hindered(m, rate, T, exchange) * (warm - T)
                 return m.moist_solid(T, left) - H0 - s.whole * self.time * heat + gone * m.vapor_enthalpy(T)
 
             return straight_root(surplus, T0 + 0.0 * loss, HEAT_STEPS, within=(COLD, HOT))
@@ -301,7 +306,12 @@ class Bed(eqx.Module):
         # nothing to give, and the signs of the balances would tell nothing
         coldest = self.meeting(before.moisture, before.temperature, Gas(0.0, jnp.min(inlets)), None)
         chilled = self.heat_loss / (self.gas_flow * m.gas_heat_capacity(fresh.temperature, 0.0))
-        low = jnp.stack([-1e-9, jnp.maximum(coldest.wet_bulb - jnp.maximum(chilled, 0.0) - COOLER, COLD)])
+        low = jnp.stack(
+            [
+                -1e-9 - MOST_CONDENSED * m.is_steam,
+                jnp.maximum(coldest.wet_bulb - jnp.maximum(chilled, 0.0) - COOLER, COLD),
+            ]
+        )
         high = jnp.stack([most * (1.0 + 1e-6) + 1e-9, jnp.max(inlets) + WARMER + CONDENSING * fresh.humidity])
 
         def lacks(x: Any, start: Any) -> tuple[Any, Any, Any]:

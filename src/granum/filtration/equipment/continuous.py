@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import abc
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import RPM, STANDARD_ATMOSPHERE
-from granum.core.kinds import Fraction, Length, Permeability, RotationSpeed, Speed
+from granum.core.kinds import Fraction, Length, Permeability, Speed, TurningSpeed, Within
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
@@ -125,7 +125,7 @@ class RotaryVacuumDrum(VacuumFilter):
     to form it.
     """
 
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     submergence: Fraction = 0.33
     wash_share: Fraction = 0.25
     deliquoring_share: Fraction = 0.2
@@ -160,7 +160,7 @@ class RotaryDiscFilter(VacuumFilter):
     The area is that of all disc faces.
     """
 
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     submergence: Fraction = 0.35
     wash_share: Fraction = 0.0
     deliquoring_share: Fraction = 0.4
@@ -191,7 +191,7 @@ class HorizontalBeltFilter(VacuumFilter):
     """
 
     belt_length: Length
-    belt_speed: Speed
+    belt_speed: Annotated[Speed, Within(1e-4)]
     formation_share: Fraction = 0.3
     wash_share: Fraction = 0.4
     deliquoring_share: Fraction = 0.3
@@ -228,7 +228,7 @@ class PrecoatDrum(ContinuousFilter):
     The precoat resists with half its first thickness, its mean over its life. No wash, little draining.
     """
 
-    rotation_speed: RotationSpeed
+    rotation_speed: TurningSpeed
     precoat_thickness: Length
     precoat_permeability: Permeability
     knife_advance: Length

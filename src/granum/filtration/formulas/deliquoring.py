@@ -4,6 +4,8 @@ moisture.
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import jax.numpy as jnp
 
 from granum.core import formula, impossible, watch
@@ -16,11 +18,13 @@ from granum.core.kinds import (
     MoistureDryBasis,
     Permeability,
     PositiveNumber,
+    PressureDifference,
     PressureDrop,
     Speed,
     SurfaceTension,
     Time,
     VoidFraction,
+    Within,
 )
 
 _CAKE = {"cake_thickness": (5e-3, 5e-2), "particle_diameter": (1e-5, 2e-4), "pressure_drop": (2e4, 4e5)}
@@ -53,7 +57,7 @@ def capillary_number_cake(
     particle_diameter: Length,
     void_fraction: VoidFraction,
     cake_thickness: Length,
-    pressure_drop: PressureDrop,
+    pressure_drop: Annotated[PressureDifference, Within(0.0)],
     liquid_density: Density,
     surface_tension: SurfaceTension,
 ) -> PositiveNumber:

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.flags import limit_active
 from granum.core.kinds import (
     Density,
     Diffusivity,
@@ -29,7 +30,13 @@ from granum.core.kinds import (
     ThermalConductivity,
 )
 from granum.materials.correlation import Missing
+from granum.materials.formulas.precipitation import ROOM
 from granum.materials.library import session
+
+NEAR = 0.5  # K beside 25 °C
+ONLY_ROOM = (
+    "The library has no heat of dissolution of this salt: the product is that of 25 °C at any temperature."
+)
 
 
 def _or_nan(property_of: Any, temperature: Any) -> Any:
@@ -154,7 +161,7 @@ class Solubility(NamedTuple):
     typical={"temperature": (285.0, 340.0)},
     title="Solubility",
 )
-def solubility(temperature: Temperature, system: str = "potassium nitrate") -> Solubility:
+def solubility(temperature: Temperature, system: str) -> Solubility:
     """Solubility of a solute over its stable crystal in the usual bases, all of anhydrous solute.
 
     The misfit is the root mean square of what the curve deviates from the data it was drawn through; zero
@@ -201,7 +208,7 @@ class Saturation(NamedTuple):
     typical={"temperature": (285.0, 340.0)},
     title="Saturated solution",
 )
-def saturated_solution(temperature: Temperature, system: str = "potassium nitrate") -> Saturation:
+def saturated_solution(temperature: Temperature, system: str) -> Saturation:
     """Solubility of a solute over its stable crystal, with the heat released on crystallization and the
     properties of the solution.
 
@@ -242,7 +249,7 @@ class SolutionProperties(NamedTuple):
     title="Properties of a solution",
 )
 def solution_properties(
-    temperature: Temperature, solute_mass_fraction: MassFraction, system: str = "sodium chloride"
+    temperature: Temperature, solute_mass_fraction: MassFraction, system: str
 ) -> SolutionProperties:
     """Density, viscosity and heat capacity of a solution of one solute at any strength, saturated or not.
 
@@ -270,7 +277,7 @@ class SaltSaturation(NamedTuple):
 
 
 @formula(
-    source="davies1962, ch. 3; haynes2014, sec. 5",
+    source="davies1962, ch. 3; haynes2014, sec. 5; ball1991",
     equation=(
         r"\mathrm{SI} = \log_{10}\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}},\quad S = "
         r"10^{\mathrm{SI}/(p+q)},\quad \gamma_i = \gamma_i(I)"
@@ -283,18 +290,23 @@ def salt_saturation(
     cation_molality: Molality,
     anion_molality: Molality,
     ionic_strength: Molality,
-    salt: str = "barium sulfate",
+    salt: str,
+    temperature: Temperature = ROOM,
 ) -> SaltSaturation:
-    """Saturation index and ratio of a salt at 25 °C from the molalities of its free ions, with Davies
-    activity coefficients.
+    """Saturation index and ratio of a salt from the molalities of its free ions, with Davies activity
+    coefficients.
 
-    Free ions only: complexes and protonated forms must be taken off first. ``granum.materials.names("salt")``
-    lists the salts.
+    Free ions only: complexes and protonated forms must be taken off first. The product follows the
+    temperature by van 't Hoff where the library has the heat of dissolution.
+    ``granum.materials.names("salt")`` lists the salts.
 
     >>> round(salt_saturation(1.04e-5, 1.04e-5, 0.0, salt="barium sulfate").saturation_ratio, 2)
     1.0
     """
     found = session().salt(salt)
-    index = found.saturation_index(cation_molality, anion_molality, ionic_strength)
-    product = found.solubility_product + 0.0 * index
+    T = temperature
+    index = found.saturation_index(cation_molality, anion_molality, ionic_strength, T)
+    product = found.product_at(T) + 0.0 * index
+    if found.enthalpy_of_dissolution is None:
+        limit_active(jnp.abs(T - ROOM) > NEAR, T, "temperature", reason=ONLY_ROOM)
     return SaltSaturation(product, index, 10.0 ** (index / found.ion_count))

@@ -105,6 +105,7 @@ class ClarifierThickener(Unit, Dynamic):
             "floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916", quiet=True
         ),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
+        "drawn": Limit("underflow asked for over the feed", 0.0, 1.0, "dimensionless", "coe1916"),
     }
 
     utilities: ClassVar[Utilities] = RAKED | AREA
@@ -300,7 +301,9 @@ class ClarifierThickener(Unit, Dynamic):
         out = jnp.zeros(self.cells).at[0].add(first).at[-1].add(last)
         down = jnp.cumsum(jnp.sum(known, axis=1) - masses - out)[:-1]  # over each inner face, kg in the step
         fall, rise = jnp.maximum(down, 0.0), jnp.maximum(-down, 0.0)
-        diagonal = masses + out + jnp.pad(fall, (0, 1)) + jnp.pad(rise, (1, 0)) + 1e-300
+        # what flows through cells that are empty yet is rounding, and may turn any way
+        rounding = 1e-16 * jnp.sum(masses) + 1e-300
+        diagonal = masses + out + jnp.pad(fall, (0, 1)) + jnp.pad(rise, (1, 0)) + rounding
         shares = jax.lax.linalg.tridiagonal_solve(
             jnp.pad(-fall, (1, 0)), diagonal, jnp.pad(-rise, (0, 1)), known
         )
@@ -329,6 +332,7 @@ class ClarifierThickener(Unit, Dynamic):
         gained = inside.held[-1] - inside.held[-2]
         fed = inside.fed[-1] - inside.fed[-2]
         return {
+            "drawn": safe_divide(self.underflow_volume_flow, feed.slurry_volume_flow),
             "thickening": figures.loading_ratio,
             "clarification": figures.clarification_ratio,
             "blanket": figures.blanket_height / (self.height * (1.0 - self.feed_depth_share)),

@@ -1,0 +1,51 @@
+// The substances of the library, and one of a list searched by typing.
+import { html, ask, settings, useState, useEffect } from './core.js';
+
+const lists = {};
+/** What a line can be made of, asked for once per language. */
+export function useSubstances() {
+  const [known, setKnown] = useState(lists[settings.language] || null);
+  useEffect(() => {
+    const language = settings.language;
+    lists[language]
+      ? setKnown(lists[language])
+      : ask('/api/substances').then((found) => setKnown((lists[language] = found)));
+  }, [settings.language]);
+  return known;
+}
+export const named = (known, name) =>
+  Object.values(known || {})
+    .flat()
+    .find((row) => row.value === name)?.label || name;
+
+const plain = (text) =>
+  text
+    .normalize('NFD')
+    .replace(/[\u0300-\u036f]/g, '')
+    .trim()
+    .toLowerCase();
+
+/** One of a list, searched by typing; what is not in the list is handed on as it was typed. */
+export function Choice({ id, label, rows, value, pick, quiet }) {
+  const shown = rows.find((row) => row.value === value)?.label ?? value;
+  const [typed, setTyped] = useState(null);
+  useEffect(() => setTyped(null), [value]);
+  const settle = (text) => {
+    const found = rows.find((row) => plain(row.label) === plain(text) || plain(row.value) === plain(text));
+    pick(found ? found.value : text.trim());
+    setTyped(null);
+  };
+  const entry = html`<input id=${id} list=${id + '-list'} type="text" autocomplete="off" aria-label=${quiet ? label : null} placeholder=${quiet ? label : ''} value=${typed ?? shown} onFocus=${(e) => e.target.select()} onInput=${(
+    e,
+  ) => {
+    setTyped(e.target.value);
+    const whole = rows.find((row) => plain(row.label) === plain(e.target.value));
+    if (
+      whole &&
+      e.inputType !== 'deleteContentBackward' &&
+      !rows.some((row) => row !== whole && plain(row.label).startsWith(plain(e.target.value)))
+    )
+      pick(whole.value);
+  }} onChange=${(e) => settle(e.target.value)} /><datalist id=${id + '-list'}>${rows.map((row) => html`<option value=${row.label}></option>`)}</datalist>`;
+  return quiet ? entry : html`<label class="end" for=${id}><span>${label}</span>${entry}</label>`;
+}

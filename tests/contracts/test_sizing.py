@@ -1,0 +1,108 @@
+"""Every piece of equipment is sized from its duty, or says why it has no size.
+
+What a machine of the size in the example does is asked of a machine of another size: the search must come
+back to the first. Some are tried each time, all in the long run (``GRANUM_RANDOM_SAMPLES``).
+"""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from tests.sharing.samples import SAMPLES
+from typer.testing import CliRunner
+
+import granum as gr
+from granum.app.tasks import TASKS, Tell
+from granum.cases.sizing import NO_SIZE, Duty, _declared, doubts, duty
+from granum.cli import app
+from granum.core import registry
+from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
+
+QUICK = (
+    "centrifuges.disc_stack",
+    "cyclones.hydrocyclone",
+    "dust.electrostatic_precipitator",
+    "evaporation.evaporator",
+    "filtration.nutsche",
+    "settling.clarifier",
+)
+EQUIPMENT = sorted(key for key, thing in registry.everything().items() if thing.card.sort == "equipment")
+SIZED = [key for key in EQUIPMENT if "setting" in _declared().get(key, {})]
+
+
+def test_every_piece_of_equipment_says_how_it_is_sized_or_why_not() -> None:
+    assert sorted(_declared()) == EQUIPMENT
+    for key in EQUIPMENT:
+        card, row = registry.find(key).card, _declared()[key]
+        if key in SIZED:
+            assert row["setting"] in {p.name for p in card.parameters}
+            assert row["figure"] in {p.name for p in card.outputs}
+        else:
+            with pytest.raises(ApplicabilityError, match="cannot be sized"):
+                duty(key)
+    assert {row["reason"] for row in _declared().values() if "reason" in row} == set(NO_SIZE)
+
+
+@pytest.mark.parametrize("key", SIZED if SAMPLES else QUICK)
+def test_the_size_of_what_a_size_does_is_that_size(key: str) -> None:
+    name = key.split(".")[1]
+    asked = duty(key)
+    line = gr.alone(key)
+    before = float(getattr(line.sheet.units[name], asked.setting))
+    does = line.solve().figure(f"{name}.{asked.figure}")
+    run = gr.size(key, **{asked.setting: 1.37 * before, asked.figure: does})
+    assert run.found[f"{name}.{asked.setting}"] == pytest.approx(before, rel=1e-6)
+
+
+def test_cloth_of_a_bag_filter_by_hand() -> None:
+    """Twice the gas needs twice the cloth at one velocity; the velocity is flow over area."""
+    once = gr.size("dust.bag_filter", superficial_velocity="1 m/min").found["bag_filter.area"]
+    run = gr.size("dust.bag_filter", superficial_velocity="1 m/min", feed={"gas_flow": "40 t/h"})
+    assert run.found["bag_filter.area"] == pytest.approx(2.0 * once, rel=1e-6)
+    assert run.found["bag_filter.area"] == pytest.approx(
+        float(run.line.sheet.feeds["feed"].gas_volume_flow) * 60.0, rel=1e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("key", "figures", "problem", "says"),
+    [
+        ("settling.clarifier", {"removal_efficiency": "100 %"}, ConvergenceError, "not reached"),
+        ("centrifuges.tubular_bowl", {"solids_recovery": "100 %"}, ApplicabilityError, "met by any"),
+        ("filtration.reverse_osmosis", {"water_recovery": "99.9 %"}, ConvergenceError, "not reached"),
+        ("drying.belt_dryer", {"moisture_dry_basis": "0.0001 %"}, ConvergenceError, "not reached"),
+        ("dust.bag_filter", {}, InputError, "give one of its figures"),
+        ("dust.bag_filter", {"removal_efficiency": "110 %"}, InputError, "removal"),
+        ("streams.mixer", {"mass_flow": "1 kg/s"}, ApplicabilityError, "cannot be sized"),
+    ],
+)
+def test_a_duty_that_cannot_be_is_refused_in_words(
+    key: str, figures: dict[str, str], problem: type[Exception], says: str
+) -> None:
+    with pytest.raises(problem, match=says):
+        gr.size(key, **figures)
+
+
+def test_the_command_line_and_the_page_find_the_same_size() -> None:
+    words = ["dust.bag_filter", "superficial_velocity=1 m/min", "--solve", "size", "--json"]
+    told = CliRunner().invoke(app, ["calc", *words])
+    assert told.exit_code == 0
+    area = json.loads(told.output)["specifications"]["bag_filter.area"]
+    payload = {
+        "key": "dust.bag_filter",
+        "inputs": {},
+        "find": "area",
+        "output": "superficial_velocity",
+        "wanted": "1 m/min",
+    }
+    number, unit = json.loads(TASKS["solve"](payload, Tell()))["text"].split()
+    assert (float(number), unit) == (pytest.approx(area, rel=1e-8), "m^2")
+    assert duty("dust.bag_filter") == Duty("area", "superficial_velocity")
+
+
+def test_what_stands_against_a_size_is_told() -> None:
+    """The cake of 50 m of slurry is no cake of a gravity filter, whatever its area."""
+    deep = gr.size("filtration.gravity_filter", slurry_depth="50 m", capacity_use=0.9)
+    assert "does not hold: cake thickness in a gravity filter." in doubts(deep)
+    assert not doubts(gr.size("filtration.gravity_filter", capacity_use=0.9))
