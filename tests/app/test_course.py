@@ -117,7 +117,7 @@ def test_each_worked_exercise_of_the_notes_is_there_and_met_or_named_as_erratum(
 def test_the_sheet_of_a_class_holds_numbers_and_answers() -> None:
     rows = list(csv.reader(io.StringIO(sheet("falling-crystal", 3, 5))))
     assert [row[0] for row in rows] == ["seed", "3", "4", "5"]
-    assert rows[0][1] == "diameter (µm)"
+    assert rows[0][1] == "particle diameter (µm)"
     for row in rows[1:]:
         micrometers, density, centipoise, stokes = map(float, row[1:5])
         by_hand = 9.80665 * (density - 1020.0) * (micrometers * 1e-6) ** 2 / (18.0 * centipoise * 1e-3)
@@ -143,7 +143,7 @@ def exercises_answer(name: str, seed: int, place: int) -> str:
     [
         ([], "99 exercises"),
         (["svedberg", "--seed", "4", "--answers"], "Runs at rising speed"),
-        (["svedberg", "--seeds", "1-2"], "seed,diameter (nm)"),
+        (["svedberg", "--seeds", "1-2"], "seed,particle diameter (nm)"),
         (["svedberg", "--json"], '"steps"'),
     ],
 )
