@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import nbformat
@@ -11,6 +12,7 @@ from tests.sharing.places import EXAMPLES, ROOT
 from tests.sharing.transcripts import Reader, blocks, commands, told_but_not_shown
 
 from granum.app.reading import as_html
+from granum.core import registry
 
 GUIDES = {
     "guides/line-with-recycle": "fr/ligne-a-recyclage",
@@ -22,6 +24,7 @@ GUIDES = {
     "guides/in-a-spreadsheet": "fr/dans-un-tableur",
     "guides/in-a-plant": "fr/dans-une-usine",
     "guides/in-a-class": "fr/en-classe",
+    "guides/laws-of-your-own": "fr/lois-personnelles",
 }
 PAGES = [(code, name) for pair in GUIDES.items() for code, name in zip(("en", "fr"), pair, strict=True)]
 
@@ -30,8 +33,20 @@ def text_of(name: str) -> str:
     return (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
 
 
+@pytest.fixture(autouse=True)
+def own_declarations_go() -> Iterator[None]:
+    """What a guide declares is not there for whatever is tested after it."""
+    yield
+    sys.modules.pop("ours", None)
+    registry._keys.clear()
+    for known in (registry._declared, *registry._families.values()):
+        for key in [key for key in known if key.startswith("user.")]:
+            del known[key]
+
+
 def followed(page: str, language: str, folder: Path, patch: pytest.MonkeyPatch) -> list[str]:
     patch.chdir(folder)
+    patch.syspath_prepend(folder)  # as where Python is called from
     (folder / "examples").symlink_to(EXAMPLES)
     return Reader(folder, language).follow(page)
 
