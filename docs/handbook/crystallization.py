@@ -138,6 +138,15 @@ water_boils = float(water.boiling_temperature(1e4))
 elevation = brine_boils - water_boils
 lift = float(water.vapor_pressure.value(308.15) / water.vapor_pressure.value(293.15))
 
+# ---- purity
+pure = {
+    wash: c.purity_of_crystals(
+        "1 %", float(at["potassium nitrate"][0].solute_mass_fraction), 0.01, "0.5 %", 0.1, wash, 2110, 1190
+    )
+    for wash in (0, 0.8, 0.98)
+}
+hindered = c.growth_ratio_kubota_mullin("1 %", "2 mmol/L", 1 / 3, "2 %")
+
 # ---- stirrer
 impeller_wide = across / 3
 stirred_speed = tank.rotation_speed_zwietering(
