@@ -292,6 +292,7 @@ EVAPORATORS = {
 }
 # of inlets or solutes that these feeds do not have; the random settings of the contracts balance them
 ELSEWHERE = {
+    "crystallization.antisolvent_batch_crystallizer",
     "crystallization.antisolvent_crystallizer",
     "crystallization.impurity_uptake",  # needs species in crystals: test_uptake
     "crystallization.precipitator",

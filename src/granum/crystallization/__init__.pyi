@@ -22,15 +22,21 @@ from granum.crystallization.charts_solutions import (
     solubilities_chart as solubilities_chart,
 )
 from granum.crystallization.equipment.antisolvent import (
+    AntisolventBatchCrystallizer as AntisolventBatchCrystallizer,
     AntisolventCrystallizer as AntisolventCrystallizer,
     AntisolventFigures as AntisolventFigures,
     AtShare as AtShare,
+    Dosed as Dosed,
     Drowned as Drowned,
+    DrownedBatchFigures as DrownedBatchFigures,
 )
 from granum.crystallization.equipment.batch import (
     BatchCrystallizer as BatchCrystallizer,
     BatchFigures as BatchFigures,
     BatchOutlets as BatchOutlets,
+    BatchVessel as BatchVessel,
+    ChargedVessel as ChargedVessel,
+    CycledVessel as CycledVessel,
     Grown as Grown,
     JacketedBatchCrystallizer as JacketedBatchCrystallizer,
     JacketedBatchFigures as JacketedBatchFigures,

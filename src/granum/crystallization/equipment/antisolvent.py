@@ -1,9 +1,10 @@
 """Crystallizers in a line into which a second solvent runs that takes the solute from the first (drowning
-out).
+out): continuous, and in batches.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -17,6 +18,7 @@ from granum.core.kinds import (
     Concentration,
     Distance,
     GrowthRate,
+    Mass,
     MassFlow,
     MassFraction,
     MassRatio,
@@ -24,10 +26,21 @@ from granum.core.kinds import (
     Number,
     PositiveNumber,
     Power,
+    Ratio,
+    RotationSpeed,
+    SpecificPower,
     Temperature,
     Time,
+    Velocity,
+    Volume,
 )
-from granum.crystallization.equipment.batch import BatchOutlets
+from granum.core.limits import Limit
+from granum.crystallization.equipment.batch import (
+    BatchOutlets,
+    CycledVessel,
+    Grown,
+    thermal,
+)
 from granum.crystallization.equipment.msmpr import STEADY
 from granum.crystallization.equipment.roles import (
     Roles,
@@ -37,8 +50,9 @@ from granum.crystallization.equipment.roles import (
     with_crystals,
 )
 from granum.crystallization.kinds import Growth, Nucleation, Solubility, VesselVolume
+from granum.crystallization.population.operations import Contents, Operation
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Feed, SteadyState, steady_msmpr
-from granum.numerics.smooth import safe_divide
+from granum.numerics.smooth import safe_divide, safe_power
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
@@ -105,6 +119,33 @@ def second_solvent_of(mixture: Mixture, found: Roles, name: str) -> int:
     return rest[0]
 
 
+def drowning_roles(vessel: Any, mixture: Mixture) -> tuple[Roles, int]:
+    """Who plays which part in a vessel with an antisolvent, which solubility and crystal must suit."""
+    found = roles(mixture, vessel.solid, vessel.solvent)
+    second = second_solvent_of(mixture, found, vessel.second_solvent)
+    if not getattr(vessel.solubility, "takes_antisolvent", False):
+        raise CaseError(
+            _(
+                "The solubility does not depend on an antisolvent: give a law that does, such as "
+                "'antisolvent_solubility'."
+            )
+        )
+    if found.solute_fraction < 1.0 - 1e-9:
+        raise CaseError(
+            _(
+                "The crystal '{crystal}' holds solvent, which would change the mixture of solvents as it "
+                "forms: this vessel takes crystals that are free of it."
+            ).format(crystal=mixture.solids[found.solid].name)
+        )
+    return found, second
+
+
+def antisolvent_share(met: Stream, found: Roles, second: int) -> Any:
+    """Of antisolvent in the solvent."""
+    first, other = met.liquid[found.solvent], met.liquid[second]
+    return safe_divide(other, first + other, 0.0)
+
+
 @equipment(
     "antisolvent_crystallizer",
     source="mullin2001, ch. 8; randolph1988, ch. 4; yalkowsky1981",
@@ -138,32 +179,15 @@ class AntisolventCrystallizer(Unit):
 
     def inside(self, feed: Stream, antisolvent: Stream) -> Drowned:
         mixture = feed.mixture
-        found = roles(mixture, self.solid, self.solvent)
-        second = second_solvent_of(mixture, found, self.second_solvent)
-        if not getattr(self.solubility, "takes_antisolvent", False):
-            raise CaseError(
-                _(
-                    "The solubility does not depend on an antisolvent: give a law that does, such as "
-                    "'antisolvent_solubility'."
-                )
-            )
-        if found.solute_fraction < 1.0 - 1e-9:
-            raise CaseError(
-                _(
-                    "The crystal '{crystal}' holds solvent, which would change the mixture of solvents as it "
-                    "forms: this vessel takes crystals that are free of it."
-                ).format(crystal=mixture.solids[found.solid].name)
-            )
+        found, second = drowning_roles(self, mixture)
         met = feed + antisolvent
         densities, T = mixture.densities("liquids", self.temperature), self.temperature
-        first, other = met.liquid[found.solvent], met.liquid[second]
-        solvents = first + other
-        share = safe_divide(other, solvents, 0.0)
+        solvents = met.liquid[found.solvent] + met.liquid[second]
         volumes = met.liquid / densities
         mixed = safe_divide(solvents, volumes[found.solvent] + volumes[second], densities[found.solvent])
         apart = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent] - volumes[second]
         entering = feed_of(met, found)
-        law = AtShare(self.solubility, share)
+        law = AtShare(self.solubility, antisolvent_share(met, found, second))
         law(T)  # once more where its flags are heard: inside what is compiled they are lost
         state = steady_msmpr(
             Feed(entering.solute, solvents, entering.crystals),
@@ -196,11 +220,10 @@ class AntisolventCrystallizer(Unit):
         entering = feed_of(met, found)
         fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
         crystals = jnp.sum(state.crystals)
-        solvents = met.liquid[found.solvent] + met.liquid[second]
         return AntisolventFigures(
             crystals,
             safe_divide(found.solute_fraction * crystals, fed),
-            safe_divide(met.liquid[second], solvents, 0.0),
+            antisolvent_share(met, found, second),
             state.solubility_per_solvent,
             state.magma_density,
             state.relative_supersaturation,
@@ -237,3 +260,148 @@ class AntisolventCrystallizer(Unit):
         duty, T = outlets.heat_duty, self.temperature
         agitator = {"electric_power_agitator": suspended(outlets.product, self.volume)}
         return heated(duty, T) | cooled(duty, T) | agitator
+
+
+class DrownedBatchFigures(NamedTuple):
+    """Figures of a batch crystallizer with antisolvent."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Number
+    antisolvent_fraction: MassFraction
+    magma_density: Concentration
+    relative_supersaturation_maximum: Number
+    mean_diameter_mass: Distance
+    nuclei_mass_fraction: Ratio
+    seed_mass: Mass
+    volume: Volume
+    heat_duty: Power
+    rotation_speed_suspension: RotationSpeed
+    tip_speed: Velocity
+    specific_power_input: SpecificPower
+
+
+class Dosed(Operation):
+    """A charge at one temperature into which a stream runs, its share by a power of time.
+
+    Parameters
+    ----------
+    charged: antisolvent that the charge holds. solute, solvent, antisolvent: what runs in, all in all; the
+        solvent counts both.
+    """
+
+    temperature: Any
+    duration: Any
+    power: Any
+    charged: Any
+    solute: Any
+    solvent: Any
+    antisolvent: Any
+
+    def start(self, solute: Any, solvent: Any) -> Contents:
+        return Contents(jnp.asarray(self.temperature, dtype=float), solute, solvent, self.charged)
+
+    def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
+        before, after = (safe_power(jnp.clip(t / self.duration, 0.0, 1.0), self.power) for t in (start, end))
+        share = after - before
+        return Contents(
+            old.temperature,
+            old.solute + share * self.solute,
+            old.solvent + share * self.solvent,
+            old.antisolvent + share * self.antisolvent,
+        )
+
+
+@equipment(
+    "antisolvent_batch_crystallizer",
+    source="mullin2001, ch. 8 and 9; yalkowsky1981; jones1974",
+    title="Batch crystallizer with antisolvent (drowning out)",
+    equation=r"m_a(t) = m_a\left(\frac{t}{t_f}\right)^p,\quad C^* = C^*(T, w)",
+)
+class AntisolventBatchCrystallizer(CycledVessel):
+    """Batches of a continuous feed into which an antisolvent runs that lowers the solubility; outlets are
+    means over the cycle.
+
+    The antisolvent comes by a power of time: 1 is a constant stream; with more it begins slowly, while there
+    is little surface for the solute to grow on. It is mixed in at once, at the temperature of the vessel, and
+    may hold water as the feed may hold some of it. Crystals that come with either are seeds from the start,
+    together with ``seed_mass_per_solvent`` of the solvent charged, which is held back from the product. The
+    crystal must be free of solvent. Nothing dissolves: seeds wait until the solution is saturated, and what
+    has grown stays where too much antisolvent dilutes, which a check tells. Births are counted on a liquor of
+    the density that it has at the end; heat of mixing and excess volume of the two solvents are left out.
+    """
+
+    temperature: Temperature
+    addition_exponent: PositiveNumber = eqx.field(kw_only=True, default=1.0)
+    second_solvent: str = eqx.field(kw_only=True, static=True, default="")
+
+    limits: ClassVar[Limits] = CycledVessel.limits | {
+        "diluted": Limit(
+            "solute at the end over what is soluble", 1.0, math.inf, "dimensionless", "mullin2001, ch. 8"
+        )
+    }
+
+    utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
+
+    def inside(self, feed: Stream, antisolvent: Stream) -> Grown:
+        found, second = drowning_roles(self, feed.mixture)
+        met = feed + antisolvent
+        first, added = (s.liquid[found.solvent] + s.liquid[second] for s in (feed, antisolvent))
+        operation = Dosed(
+            self.temperature,
+            self.duration,
+            self.addition_exponent,
+            feed.liquid[second],
+            antisolvent.liquid[found.solute],
+            added,
+            antisolvent.liquid[second],
+        )
+        model = self._model(met.replace(temperature=self.temperature), found)
+        grown = self._grown(model, operation, feed.replace(solid=met.solid), found, first)
+        # once more where its flags are heard: inside what is compiled they are lost
+        self.solubility(self.temperature, antisolvent_share(met, found, second))
+        return grown
+
+    def outlets(self, inside: Grown, feed: Stream, antisolvent: Stream) -> BatchOutlets:
+        met, found, classes = feed + antisolvent, inside.found, inside.kept(feed.mixture.edges)
+        dissolved = jnp.sum(feed_of(met, found).crystals) - jnp.sum(classes)
+        product = met.replace(
+            solid=with_crystals(met, found, classes),
+            liquid=met.liquid.at[found.solute].add(dissolved),
+            temperature=jnp.asarray(self.temperature, dtype=float),
+        )
+        return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow - antisolvent.enthalpy_flow)
+
+    def figures(
+        self, inside: Grown, outlets: BatchOutlets, feed: Stream, antisolvent: Stream
+    ) -> DrownedBatchFigures:
+        met, found = feed + antisolvent, inside.found
+        second = second_solvent_of(met.mixture, found, self.second_solvent)
+        made, part, *rest = self._figures(inside, outlets.product, met)
+        volume = outlets.product.slurry_volume_flow * self.cycle
+        seed, share = self._seed(feed, found), antisolvent_share(met, found, second)
+        stirrer = self.stirrer_figures(outlets.product, volume)
+        return DrownedBatchFigures(made, part, share, *rest, seed, volume, outlets.heat_duty, *stirrer)
+
+    def measured(
+        self,
+        inside: Grown,
+        outlets: BatchOutlets,
+        figures: DrownedBatchFigures,
+        feed: Stream,
+        antisolvent: Stream,
+    ) -> dict[str, Any]:
+        course = inside.course
+        end = course.solute_per_solvent[-1] / course.solubility_per_solvent[-1]
+        there = figures.crystal_flow > 0.0
+        return super().measured(inside, outlets, figures, feed) | {"diluted": jnp.where(there, end, 1.0)}
+
+    def drawn(
+        self,
+        inside: Grown,
+        outlets: BatchOutlets,
+        figures: DrownedBatchFigures,
+        feed: Stream,
+        antisolvent: Stream,
+    ) -> dict[str, Any]:
+        stirrer = self.stirrer_power(outlets.product, figures.volume)
+        return thermal(outlets.heat_duty, feed, outlets.product) | stirrer

@@ -160,8 +160,14 @@ class Grown(NamedTuple):
     found: Roles
     held: Any
 
+    def kept(self, edges: Any) -> Any:
+        """Crystals that leave, by size class, kg/s: all but the mass that is held back as seed."""
+        left = jnp.maximum(self.course.crystals[-1] - self.held, 0.0)
+        classes = self.course.final.in_classes(edges)
+        return classes * safe_divide(left, jnp.sum(classes), 0.0)
 
-class _Batch(Unit):
+
+class BatchVessel(Unit):
     """What batches share; each says how long it runs and what drives it."""
 
     solubility: Solubility = eqx.field(kw_only=True)
@@ -186,10 +192,6 @@ class _Batch(Unit):
     def _time(self, feed: Stream) -> Any:
         """Time from charge to product, s."""
 
-    @abstractmethod
-    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
-        """What drives the contents; one second of feed stands for the charge."""
-
     def _model(self, feed: Stream, found: Roles) -> Model:
         crystal = crystal_of(feed.mixture, found, feed.temperature, self.volume_shape_factor)
         return Model(
@@ -209,33 +211,22 @@ class _Batch(Unit):
             jnp.append(added.low, low), jnp.append(added.high, high), jnp.append(added.number, number)
         )
 
-    def inside(self, feed: Stream) -> Grown:
-        found = roles(feed.mixture, self.solid, self.solvent)
-        entering, duration = feed_of(feed, found), self._time(feed)
-        held, seeds = self._seeding(feed, found)
-        operation = self._operation(feed, found, duration)
-        times = jnp.linspace(0.0, duration, STEPS + 1)
-        solvent = jnp.where(entering.solvent > 0, entering.solvent, TRICKLE)
-        model = self._model(feed, found)
-        course = march(model, operation, seeds, entering.solute, solvent, times)
-        # once more where its flags are heard: inside what is compiled they are lost
-        model.saturated(
-            Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent))
-        )
+    def _grown(self, model: Model, operation: Operation, charge: Stream, found: Roles, solvent: Any) -> Grown:
+        """The batch of a charge, one second of feed, with so much solvent."""
+        held, seeds = self._seeding(charge, found)
+        times = jnp.linspace(0.0, self._time(charge), STEPS + 1)
+        solvent = jnp.where(solvent > 0, solvent, TRICKLE)
+        course = march(model, operation, seeds, charge.liquid[found.solute], solvent, times)
         return Grown(course, found, held)
 
     def _product(self, inside: Grown, feed: Stream) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""
-        course, found, held = inside
-        x, entering = found.solute_fraction, jnp.sum(feed_of(feed, found).crystals)
-        grown = course.crystals[-1]
-        kept = jnp.maximum(grown - held, 0.0)
-        classes = course.final.in_classes(feed.mixture.edges)
-        total = jnp.sum(classes)
-        classes = classes * jnp.where(total > 0, kept / jnp.where(total > 0, total, 1.0), 0.0)
+        course, found, _held = inside
+        x, classes = found.solute_fraction, inside.kept(feed.mixture.edges)
+        dissolved = jnp.sum(feed_of(feed, found).crystals) - jnp.sum(classes)
         gone = course.solvent[0] - course.solvent[-1]
-        solute = feed.liquid[found.solute] + x * (entering - kept)
-        solvent = feed.liquid[found.solvent] + (1.0 - x) * (entering - kept) - gone
+        solute = feed.liquid[found.solute] + x * dissolved
+        solvent = feed.liquid[found.solvent] + (1.0 - x) * dissolved - gone
         liquid = feed.liquid.at[found.solute].set(solute).at[found.solvent].set(solvent)
         return feed.replace(
             solid=with_crystals(feed, found, classes), liquid=liquid, temperature=course.temperature[-1]
@@ -273,13 +264,32 @@ class _Batch(Unit):
         }
 
 
-class _Cycled(Stirred, _Batch):
+class ChargedVessel(BatchVessel):
+    """A batch to which nothing is added on its way."""
+
+    @abstractmethod
+    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
+        """What drives the contents; one second of feed stands for the charge."""
+
+    def inside(self, feed: Stream) -> Grown:
+        found = roles(feed.mixture, self.solid, self.solvent)
+        model, operation = self._model(feed, found), self._operation(feed, found, self._time(feed))
+        grown = self._grown(model, operation, feed, found, feed.liquid[found.solvent])
+        # once more where its flags are heard: inside what is compiled they are lost
+        there = grown.course
+        model.saturated(
+            Contents(there.temperature, there.solute, there.solvent, jnp.zeros_like(there.solvent))
+        )
+        return grown
+
+
+class CycledVessel(Stirred, BatchVessel):
     """A batch vessel that works in cycles of batch and dead time."""
 
     duration: Time = eqx.field(kw_only=True)
     dead_time: Time = eqx.field(kw_only=True, default=3600.0)
 
-    limits: ClassVar[Limits] = _Batch.limits | SUSPENDED
+    limits: ClassVar[Limits] = BatchVessel.limits | SUSPENDED
 
     @property
     def cycle(self) -> Any:
@@ -302,7 +312,7 @@ class _Cycled(Stirred, _Batch):
         return super().measured(inside, outlets, figures, feed) | stirrer
 
 
-def _thermal(duty: Any, feed: Stream, product: Stream) -> dict[str, Any]:
+def thermal(duty: Any, feed: Stream, product: Stream) -> dict[str, Any]:
     """Heat and cold of a vessel whose contents go from one temperature to another, by the carriers that its
     ends ask for.
     """
@@ -316,7 +326,7 @@ def _thermal(duty: Any, feed: Stream, product: Stream) -> dict[str, Any]:
     title="Seeded batch crystallizer",
     equation=r"\dot m = m_{batch} / (t_f + t_{dead})",
 )
-class BatchCrystallizer(_Cycled):
+class BatchCrystallizer(CycledVessel, ChargedVessel):
     """Cooling batch that treats a continuous feed in cycles of batch and dead time; outlets are means over
     the cycle.
 
@@ -348,7 +358,7 @@ class BatchCrystallizer(_Cycled):
         self, inside: Grown, outlets: BatchOutlets, figures: BatchFigures, feed: Stream
     ) -> dict[str, Any]:
         stirrer = self.stirrer_power(outlets.product, figures.volume)
-        return _thermal(outlets.heat_duty, feed, outlets.product) | stirrer
+        return thermal(outlets.heat_duty, feed, outlets.product) | stirrer
 
 
 @equipment(
@@ -357,7 +367,7 @@ class BatchCrystallizer(_Cycled):
     title="Batch crystallizer cooled through a jacket",
     equation=r"\frac{dT}{dt} = \frac{U A (T_j - T) + q_c\,\dot m_c}{m c_p}",
 )
-class JacketedBatchCrystallizer(_Cycled):
+class JacketedBatchCrystallizer(CycledVessel, ChargedVessel):
     """Batch vessels of a given volume and jacket that treat a continuous feed in cycles; the temperature
     follows from the heat balance.
 
@@ -373,7 +383,7 @@ class JacketedBatchCrystallizer(_Cycled):
     heat_transfer_coefficient_inside: HeatTransferCoefficient | None = None
     metastable_width: TemperatureDifference = 5.0
 
-    limits: ClassVar[Limits] = _Cycled.limits | {
+    limits: ClassVar[Limits] = CycledVessel.limits | {
         "crust": Limit(
             "undercooling at the cooled wall",
             -math.inf,
@@ -462,7 +472,7 @@ class JacketedBatchCrystallizer(_Cycled):
         self, inside: Grown, outlets: BatchOutlets, figures: JacketedBatchFigures, feed: Stream
     ) -> dict[str, Any]:
         stirrer = self.stirrer_power(outlets.product, self.volume, figures.vessel_count)
-        return _thermal(outlets.heat_duty, feed, outlets.product) | stirrer
+        return thermal(outlets.heat_duty, feed, outlets.product) | stirrer
 
 
 @equipment(
@@ -471,7 +481,7 @@ class JacketedBatchCrystallizer(_Cycled):
     title="Batch crystallizer cooled by boiling under vacuum",
     equation=r"L_v\,\dot m_v = -m c_p \frac{dT}{dt} + q_c\,\dot m_c",
 )
-class VacuumBatchCrystallizer(_Cycled):
+class VacuumBatchCrystallizer(CycledVessel, ChargedVessel):
     """Batch vessels that cool by boiling under falling pressure, with no cooled wall to grow a crust, for a
     continuous feed in cycles.
 
@@ -519,7 +529,7 @@ class VacuumBatchCrystallizer(_Cycled):
         self, inside: Grown, outlets: VacuumBatchOutlets, figures: VacuumBatchFigures, feed: Stream
     ) -> dict[str, Any]:
         stirrer = self.stirrer_power(outlets.product, figures.volume)
-        return _thermal(outlets.heat_duty, feed, outlets.product) | stirrer
+        return thermal(outlets.heat_duty, feed, outlets.product) | stirrer
 
 
 @equipment(
@@ -528,7 +538,7 @@ class VacuumBatchCrystallizer(_Cycled):
     title="Plug flow crystallizer",
     equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0",
 )
-class PlugFlowCrystallizer(_Batch):
+class PlugFlowCrystallizer(ChargedVessel):
     """Tubular crystallizer in steady plug flow: every parcel of the feed lives the batch of its residence
     time.
 
@@ -558,4 +568,4 @@ class PlugFlowCrystallizer(_Batch):
     def drawn(
         self, inside: Grown, outlets: BatchOutlets, figures: PlugFlowFigures, feed: Stream
     ) -> dict[str, Any]:
-        return _thermal(outlets.heat_duty, feed, outlets.product)
+        return thermal(outlets.heat_duty, feed, outlets.product)
