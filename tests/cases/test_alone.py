@@ -96,7 +96,7 @@ def test_its_text_is_a_case_file_that_says_the_same() -> None:
         ({"areaa": "12 m2"}, "Did you mean 'area'?"),
         ({"feed.solidflow": "1 kg/s"}, "Did you mean 'feed.solid_flow'?"),
         ({"fed.solid_flow": "1 kg/s"}, "fed.solid_flow"),
-        ({"wash_dissolution": "{law"}, "not valid JSON"),
+        ({"wash_dissolution": "{law"}, "is no table"),
     ],
 )
 def test_what_is_no_word_of_it_is_told(words: dict[str, str], said: str) -> None:
