@@ -10,6 +10,7 @@ from validation import crystallization_msmpr, materials_solubility
 import granum as gr
 from granum.app.chapters import said
 from granum.app.shipped import examples_folder
+from granum.cases.alone import alone
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 from granum.crystallization.equipment.boiling import Boiling
 from granum.crystallization.formulas.solubility_laws import LibrarySolubility
@@ -105,6 +106,19 @@ peak = {how: float(np.max(seeded[how, 0.5].relative_supersaturation)) for how in
 crop = float(grown[2].crystals_per_solvent[-1] - grown[2].crystals_per_solvent[0])
 loading = float(c.seed_loading_critical("100 um"))
 seed_kubota = loading * crop
+
+# ---- dosing
+dosed = {
+    power: alone(
+        "crystallization.antisolvent_batch_crystallizer",
+        addition_exponent=power,
+        seed_mass_per_solvent="20 g/kg",
+    )
+    .solve()
+    .units["antisolvent_batch_crystallizer"]
+    .values
+    for power in (0.5, 1, 2, 3)
+}
 
 # ---- wall
 rate = 1000 / 3600
