@@ -408,6 +408,21 @@ def data(key: str) -> Data:
             "filtrate_volume",
             0.003,
         ),
+        "capillary_suction_test": lambda: Data(
+            {
+                "suction_time": 8.0 + 2.4 * np.repeat([0.0, 5.0, 10.0, 20.0], 3),
+                "solids_concentration": np.repeat([0.0, 5.0, 10.0, 20.0], 3),
+            },
+            {},
+            "suction_time",
+            0.03,
+        ),
+        "fouling_index_test": lambda: Data(
+            {"time": t[1:], "filtrate_volume": _volumes(t[1:])},
+            {"area": 0.05, "dynamic_viscosity": 1e-3, "pressure_drop": 2e5},
+            "filtrate_volume",
+            0.003,
+        ),
         "expression_test": lambda: Data(
             {
                 "time": t,
