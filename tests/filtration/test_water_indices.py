@@ -117,7 +117,7 @@ def test_printed_slope_is_a_fouling_index():
     assert found["medium_resistance"].value == pytest.approx(10.63e10, rel=0.005)
     agreed = 3.00e6 * (1.002 / 0.8937) * (338 / 200) * (0.0439 / 13.8e-4) ** 2
     assert found["modified_fouling_index"].value == pytest.approx(agreed, rel=0.005)
-    assert [flag["flag"] for flag in found.flags] == ["pressure", "points excluded"]
+    assert [flag["flag"] for flag in found.flags] == ["pressure", "points excluded", "dirty"]
 
 
 def test_silt_density_index_of_public_examples_and_its_bounds():
