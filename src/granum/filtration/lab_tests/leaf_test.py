@@ -237,7 +237,7 @@ class LeafTest(ConstantPressureTest):
     source="schippers1980; astm4189; alhadidi2011",
     title="Fouling index of a water",
     equation=(
-        r"\frac{t}{V} = \frac{\eta\,I}{2\,\Delta p\,\Omega^2}\,V + \frac{\eta\,R_m}{\Delta p\,\Omega},"
+        r"\frac{t}{V} = \frac{\eta\,I}{2\,\Delta p\,\Omega^2}\,V + \frac{\eta\,R_s}{\Delta p\,\Omega},"
         r"\qquad \mathrm{MFI} = \frac{\eta_{20}\,I}{2\,\Delta p_0\,\Omega_0^2}"
     ),
 )
