@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from typing import Annotated, Any, ClassVar
 
+import jax.numpy as jnp
 import numpy as np
 
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import CakeResistance, Concentration, DynamicViscosity, PositiveNumber, Series, Time
+from granum.core.kinds import (
+    CakeResistance,
+    Concentration,
+    DynamicViscosity,
+    PositiveNumber,
+    Series,
+    Time,
+    Within,
+)
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
 from granum.filtration.formulas.suction import filterability_constant
@@ -41,7 +50,7 @@ class CapillarySuctionTest(LabTest):
     suction_time: Annotated[Time, Series("points")]
     solids_concentration: Annotated[Concentration, Series("points")]
     dynamic_viscosity: DynamicViscosity = 1.0e-3
-    suction_time_liquid: Time | None = None
+    suction_time_liquid: Annotated[Time, Within(1e-3)] | None = None
     suction_constant: SuctionConstant | None = None
     instrument_constant: PositiveNumber = 1.0
 
@@ -83,15 +92,15 @@ class CapillarySuctionTest(LabTest):
                 name="suction_time",
             )
 
-        def model(p: dict[str, Any], C: Any) -> Any:
+        def whole(p: dict[str, Any], C: Any) -> Any:
             return p.get("suction_time_liquid", known) + p["suction_time_normalized"] * C
 
         def derived(p: dict[str, Any]) -> dict[str, Any]:
-            whole = model(p, middle)
+            time = whole(p, middle)
             found = {
-                "capillary_suction_time": whole,
+                "capillary_suction_time": time,
                 "filterability_constant": filterability_constant.function(
-                    whole, middle, self.dynamic_viscosity, self.instrument_constant
+                    time, middle, self.dynamic_viscosity, self.instrument_constant
                 ),
             }
             if self.suction_constant is not None:
@@ -104,13 +113,12 @@ class CapillarySuctionTest(LabTest):
         bounds = {"suction_time_normalized": (0.0, np.inf)}
         if known is None:
             start["suction_time_liquid"] = liquid
-            bounds["suction_time_liquid"] = (0.0, np.inf)
+            bounds["suction_time_liquid"] = (1e-3 * float(t.min()), np.inf)
         return self.fitted(
-            model,
+            lambda p, C: jnp.log(whole(p, C)),
             start,
             C,
-            t,
-            sigma=liquid + slope * C,
+            np.log(t),
             bounds=bounds,
             derived=derived,
             flags=self._paper(liquid, liquid + slope * middle),
@@ -131,3 +139,20 @@ class CapillarySuctionTest(LabTest):
             "can no longer be told apart. Drain such a sludge first."
         )
         return [self.note("paper", sentence, "suction_time")]
+
+    def chart(self) -> Any:
+        """Suction time against solids, with the fitted line and its 95 % band."""
+        from granum.core.charts import add_band, add_line, add_points, axis_title, figure
+
+        found, C = self.fit(), np.asarray(self.solids_concentration, dtype=float)
+        grid = np.linspace(0.0, 1.03 * C.max(), 120)
+        band = found.predict(grid)
+        drawing = figure(
+            axis_title("solids_concentration", "g/L"),
+            axis_title("suction_time", "s"),
+            title=type(self).card.title,
+        )
+        add_band(drawing, grid, np.exp(band.low), np.exp(band.high), _("95 % band"))
+        add_line(drawing, grid, np.exp(band.value), _("model"))
+        add_points(drawing, C, np.asarray(self.suction_time), _("data"))
+        return drawing
