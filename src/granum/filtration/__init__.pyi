@@ -133,6 +133,10 @@ from granum.filtration.formulas.expression import (
 from granum.filtration.formulas.fibers import (
     fiber_efficiency_lee_liu as fiber_efficiency_lee_liu,
 )
+from granum.filtration.formulas.flowability import (
+    transportable_moisture_limit_compacted as transportable_moisture_limit_compacted,
+    transportable_moisture_limit_flow as transportable_moisture_limit_flow,
+)
 from granum.filtration.formulas.fouling_index import (
     filterability_number as filterability_number,
     modified_fouling_index as modified_fouling_index,
@@ -226,6 +230,9 @@ from granum.filtration.lab_tests.compressibility import (
 )
 from granum.filtration.lab_tests.expression import (
     ExpressionTest as ExpressionTest,
+)
+from granum.filtration.lab_tests.flowability import (
+    ProctorFagerbergTest as ProctorFagerbergTest,
 )
 from granum.filtration.lab_tests.leaf_test import (
     ConstantPressureTest as ConstantPressureTest,
