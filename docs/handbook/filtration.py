@@ -95,6 +95,13 @@ sand_test = {"concentration_inlet": "10 mg/L", "superficial_velocity": "5 m/hour
 number_little = float(f.filterability_number("0.2 m", "1 mg/L", **sand_test))
 number_much = float(f.filterability_number("0.5 m", "0.3 mg/L", **sand_test))
 
+# ---- cargo
+compacted = f.ProctorFagerbergTest.read(
+    BENCH / "proctor_fagerberg_test_made.csv", solid_density="4.2 g/cm3"
+).fit()
+shipped = compacted["transportable_moisture_limit"]
+void_shipped = compacted["void_fraction"].value
+
 # ---- own weight
 thin_slurry = {
     "cake_resistance": "1e9 m/kg",

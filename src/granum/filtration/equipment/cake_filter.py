@@ -128,7 +128,7 @@ class CakeFilter(CakeMaker):
         "packed": Limit(
             "solids in the feed over those of a packed cake", 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"
         ),
-        # above 1e-11 m² the source would rather have the crystals drain or spin, which is no fault of a filter
+        # above 1e-11 m² the source would rather drain or spin the crystals, which is no fault of a filter
         "filterable": Limit("permeability of the cake", 1e-16, math.inf, "m^2", "anlauf2019, § 6.3"),
         "flowing": Limit(
             "cake moisture, wet basis", 0.0, "transportable_moisture_limit", "kg/kg", "imsbc2008, app. 2"
