@@ -73,6 +73,35 @@ lost = 1 - (float(volume_twice) / (twice + 1800)) / float(press.mean_filtrate_fl
 drum_rate = float(drum_flow) * 23.47
 drum_cake = drum_rate * 120 / 50 / (2710 * 0.5)
 
+# ---- quick tests
+BENCH = Path(examples_folder()) / "lab-tests"
+suction = f.CapillarySuctionTest.read(
+    BENCH / "capillary_suction_test_made.csv", suction_constant="5e-10 m^2/Pa"
+).fit()
+per_solids = suction["suction_time_normalized"]
+sucked = suction["cake_resistance"].value
+fouling = f.FoulingIndexTest.read(
+    BENCH / "fouling_index_test_made.csv",
+    area="13.8 cm2",
+    pressure_drop="2 bar",
+    dynamic_viscosity="1.002 cP",
+).fit()
+index_modified = fouling["modified_fouling_index"].value * 1e-6
+modified_low, modified_high = (x * 1e-6 for x in fouling["modified_fouling_index"].interval_95)
+carried, clean = fouling["fouling_potential"].value, fouling["medium_resistance"].value
+silt = {times: 6000 * float(f.silt_density_index_cake(times * carried, clean)) for times in (1, 2, 10)}
+silt_warm = 6000 * float(f.silt_density_index_cake(carried, clean, dynamic_viscosity="0.8 cP"))
+sand_test = {"concentration_inlet": "10 mg/L", "superficial_velocity": "5 m/hour", "time": "20 min"}
+number_little = float(f.filterability_number("0.2 m", "1 mg/L", **sand_test))
+number_much = float(f.filterability_number("0.5 m", "0.3 mg/L", **sand_test))
+
+# ---- cargo
+compacted = f.ProctorFagerbergTest.read(
+    BENCH / "proctor_fagerberg_test_made.csv", solid_density="4.2 g/cm3"
+).fit()
+shipped = compacted["transportable_moisture_limit"]
+void_shipped = compacted["void_fraction"].value
+
 # ---- own weight
 thin_slurry = {
     "cake_resistance": "1e9 m/kg",

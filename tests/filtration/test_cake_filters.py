@@ -208,3 +208,24 @@ def test_precoat_limits_the_rate_of_a_clear_feed():
     checks = {c.name: c for c in drum.operate(feed=feed).checks}
     assert checks["life of the precoat"].value == pytest.approx(1600 * 120)
     assert float(closure([feed], out).mass) < 1e-14
+
+
+def test_a_filter_says_when_its_cake_would_flow_and_when_it_is_no_cake():
+    feed = stream(mixture(), 0.15, 0.6)
+    drum = {"area": 6.0, "pressure_drop": 6e4, "cake_resistance": 1e11, "void_fraction": 0.5}
+
+    def checked(**given):
+        made = RotaryVacuumDrum(rotation_speed=0.03, **{**drum, **given}).operate(feed=feed)
+        return {check.name: check for check in made.checks}
+
+    plain = checked()
+    assert "cake moisture, wet basis" not in plain
+    permeable = plain["permeability of the cake"]
+    assert permeable.ok
+    # by hand from the resistance: B = 1/(α ρ_s (1 − ε))
+    assert float(permeable.value) == pytest.approx(1.0 / (1e11 * 2710.0 * 0.5))
+    assert not checked(cake_resistance=1e14)["permeability of the cake"].ok
+    moisture = float(checked(transportable_moisture_limit=0.1)["cake moisture, wet basis"].value)
+    assert 0.0 < moisture < 0.5
+    assert not checked(transportable_moisture_limit=0.9 * moisture)["cake moisture, wet basis"].ok
+    assert checked(transportable_moisture_limit=1.1 * moisture)["cake moisture, wet basis"].ok

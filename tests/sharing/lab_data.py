@@ -250,6 +250,14 @@ def _coagulant_jars() -> Data:
     return Data(columns, {"raw_turbidity": 60.0}, "residual_turbidity", 0.02)
 
 
+def _compacted() -> Data:
+    water = np.linspace(0.1, 0.56, 9)  # per volume of solid; voids 0.6 of it where 0.7 of them are full
+    void = 0.6 - 0.25 * (water - 0.42) + 0.9 * (water - 0.42) ** 2
+    w = water / 4.2
+    columns = {"moisture_wet_basis": w / (1.0 + w), "bulk_density_wet": 4200.0 * (1.0 + w) / (1.0 + void)}
+    return Data(columns, {"solid_density": 4200.0}, "bulk_density_wet", 0.004)
+
+
 def _vials() -> Data:
     P = np.array([5.0, 10.0, 15.0, 20.0, 27.0, 35.0, 45.0, 60.0])
     K = 11.0 + 3.0 * P / (1 + 0.03 * P)
@@ -408,6 +416,22 @@ def data(key: str) -> Data:
             "filtrate_volume",
             0.003,
         ),
+        "capillary_suction_test": lambda: Data(
+            {
+                "suction_time": 8.0 + 2.4 * np.repeat([0.0, 5.0, 10.0, 20.0], 3),
+                "solids_concentration": np.repeat([0.0, 5.0, 10.0, 20.0], 3),
+            },
+            {},
+            "suction_time",
+            0.03,
+        ),
+        "fouling_index_test": lambda: Data(
+            {"time": t[1:], "filtrate_volume": _volumes(t[1:])},
+            {"area": 0.05, "dynamic_viscosity": 1e-3, "pressure_drop": 2e5},
+            "filtrate_volume",
+            0.003,
+        ),
+        "proctor_fagerberg_test": _compacted,
         "expression_test": lambda: Data(
             {
                 "time": t,

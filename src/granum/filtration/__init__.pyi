@@ -133,6 +133,16 @@ from granum.filtration.formulas.expression import (
 from granum.filtration.formulas.fibers import (
     fiber_efficiency_lee_liu as fiber_efficiency_lee_liu,
 )
+from granum.filtration.formulas.flowability import (
+    transportable_moisture_limit_compacted as transportable_moisture_limit_compacted,
+    transportable_moisture_limit_flow as transportable_moisture_limit_flow,
+)
+from granum.filtration.formulas.fouling_index import (
+    filterability_number as filterability_number,
+    modified_fouling_index as modified_fouling_index,
+    silt_density_index as silt_density_index,
+    silt_density_index_cake as silt_density_index_cake,
+)
 from granum.filtration.formulas.gas_filters import (
     penetration_fibers as penetration_fibers,
     pressure_drop_dust_cake as pressure_drop_dust_cake,
@@ -188,6 +198,11 @@ from granum.filtration.formulas.resistance import (
     cake_resistance_power_law as cake_resistance_power_law,
     cake_resistance_threshold as cake_resistance_threshold,
 )
+from granum.filtration.formulas.suction import (
+    capillary_suction_time as capillary_suction_time,
+    filterability_constant as filterability_constant,
+    suction_constant_calibration as suction_constant_calibration,
+)
 from granum.filtration.formulas.washing import (
     axial_dispersion_cake as axial_dispersion_cake,
     dispersion_number as dispersion_number,
@@ -207,13 +222,21 @@ from granum.filtration.lab_tests.cake_tests import (
     DeliquoringCurve as DeliquoringCurve,
     WashingCurve as WashingCurve,
 )
+from granum.filtration.lab_tests.capillary_suction import (
+    CapillarySuctionTest as CapillarySuctionTest,
+)
 from granum.filtration.lab_tests.compressibility import (
     Compressibility as Compressibility,
 )
 from granum.filtration.lab_tests.expression import (
     ExpressionTest as ExpressionTest,
 )
+from granum.filtration.lab_tests.flowability import (
+    ProctorFagerbergTest as ProctorFagerbergTest,
+)
 from granum.filtration.lab_tests.leaf_test import (
+    ConstantPressureTest as ConstantPressureTest,
+    FoulingIndexTest as FoulingIndexTest,
     LeafTest as LeafTest,
 )
 from granum.filtration.lab_tests.rate_tests import (

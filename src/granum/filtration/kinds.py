@@ -44,3 +44,13 @@ ReferenceConcentration = Annotated[
 AdsorptionRate = Annotated[
     Any, Kind("adsorption rate coefficient", "1/s", lower=1e-7, upper=1e6, display=("1/min", "1/s", "1/hour"))
 ]
+# Suction time and fouling of membranes
+SuctionConstant = Annotated[
+    Any, Kind("constant of a suction time apparatus", "m^2/Pa", lower=0.0, open_lower=True)
+]
+FilterabilityConstant = Annotated[Any, Kind("filterability constant", "kg^2/(m^4*s^2)", lower=0.0)]
+TimePerConcentration = Annotated[
+    Any, Kind("time per mass concentration", "s*m^3/kg", lower=0.0, display=("s*L/g",))
+]
+FoulingPotential = Annotated[Any, Kind("fouling potential", "1/m^2", lower=0.0, open_lower=True)]
+SiltDensityIndex = Annotated[Any, Kind("silt density index", "1/s", display=("percent/min",))]

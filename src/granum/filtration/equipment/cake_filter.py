@@ -5,6 +5,7 @@ deliquoring of the cake.
 from __future__ import annotations
 
 import abc
+import math
 from dataclasses import KW_ONLY
 from typing import Any, ClassVar, NamedTuple
 
@@ -17,6 +18,7 @@ from granum.core.kinds import (
     Fraction,
     MassPerAreaOrZero,
     MoistureDryBasis,
+    MoistureWetBasis,
     PressureDrop,
     Ratio,
     Time,
@@ -105,7 +107,8 @@ class CakeFilter(CakeMaker):
     goes.
 
     The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power
-    ``compressibility`` of the pressure drop.
+    ``compressibility`` of the pressure drop. With a ``transportable_moisture_limit`` the moisture of the cake
+    is checked against it.
     """
 
     area: Area
@@ -115,6 +118,7 @@ class CakeFilter(CakeMaker):
     _: KW_ONLY  # so that subclasses may add fields without a default
     compressibility: Ratio = 0.0
     reference_pressure: PressureDrop = 1e5
+    transportable_moisture_limit: MoistureWetBasis | None = None
 
     limits: ClassVar[Limits] = {
         "capacity": Limit("share of the filtration capacity in use", 0.0, 1.0, "dimensionless", "ruth1935"),
@@ -123,6 +127,11 @@ class CakeFilter(CakeMaker):
         ),
         "packed": Limit(
             "solids in the feed over those of a packed cake", 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"
+        ),
+        # above 1e-11 m² the source would rather drain or spin the crystals, which is no fault of a filter
+        "filterable": Limit("permeability of the cake", 1e-16, math.inf, "m^2", "anlauf2019, § 6.3"),
+        "flowing": Limit(
+            "cake moisture, wet basis", 0.0, "transportable_moisture_limit", "kg/kg", "imsbc2008, app. 2"
         ),
     }
 
@@ -136,6 +145,10 @@ class CakeFilter(CakeMaker):
         return cake_resistance_power_law(
             self.pressure_drop, self.cake_resistance, self.compressibility, self.reference_pressure
         )
+
+    def permeability(self, s: Slurry) -> Any:
+        """Permeability of the cake at the driving pressure."""
+        return cake_permeability(self.resistance, self.void_fraction, s.solid_density)
 
     def media_resistance(self) -> Any:
         """Resistance of what carries the cake."""
@@ -195,7 +208,7 @@ class CakeFilter(CakeMaker):
         return saturation_after_deliquoring(
             plan.deliquoring_time,
             self.pressure_drop,
-            cake_permeability(self.resistance, self.void_fraction, s.solid_density),
+            self.permeability(s),
             s.dynamic_viscosity,
             self.void_fraction,
             thick,
@@ -218,7 +231,7 @@ class CakeFilter(CakeMaker):
             )
         )
         velocity = gas_velocity_deliquoring(
-            cake_permeability(self.resistance, self.void_fraction, s.solid_density),
+            self.permeability(s),
             thick,
             pressure,
             pressure_outlet,
@@ -268,8 +281,16 @@ class CakeFilter(CakeMaker):
     def measured(
         self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
     ) -> dict[str, Any]:
-        packed = feed.solids_volume_fraction / (1.0 - self.void_fraction)
-        return {"capacity": figures.capacity_use, "wash": inside.plan.wash_use, "packed": packed}
+        found = {
+            "capacity": figures.capacity_use,
+            "wash": inside.plan.wash_use,
+            "packed": feed.solids_volume_fraction / (1.0 - self.void_fraction),
+            "filterable": self.permeability(inside.slurry),
+        }
+        if self.transportable_moisture_limit is not None:
+            moisture = outlets.cake.moisture_dry_basis
+            found["flowing"] = moisture / (1.0 + moisture)
+        return found
 
     @classmethod
     def size(
