@@ -23,7 +23,7 @@ with SHEETS.open(encoding="utf-8") as file:
 def sheet(machine, column):
     """A figure of the table of machines, in SI units."""
     found = next(name for name in machines[machine] if name.startswith(column))
-    factor = {"kJ": 1000.0, "/hour": 1 / 3600}
+    factor = {"kJ": 1000.0, "tonne/hour": 1 / 3.6, "/hour": 1 / 3600}
     value = float(machines[machine][found])
     if "degC" in found:
         return value + ZERO
