@@ -140,7 +140,7 @@ class AbstractWebOven(Unit):
         # past it there is no heat of vaporization, and the steps run away
         critical = HumidMixture(gas.mixture).fluid.critical_temperature
         burnt = found["highest"] > (critical if math.isfinite(critical) else HOTTEST)
-        card: Card[Any] = type(self).card  # pyright: ignore[reportAttributeAccessIssue]
+        card: Card = type(self).card  # pyright: ignore[reportAttributeAccessIssue]
         unsolved(~burnt, card, reason=_BURNT)
         unsolved(followed | burnt, card, reason=_TOO_FAST)
         unsolved(found["converged"] | ~followed | burnt, card, reason=_UNSOLVED)
