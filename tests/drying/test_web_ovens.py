@@ -6,8 +6,9 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.dust.test_collectors import alone
 
-from granum.core.errors import InputError
+from granum.core.errors import ConvergenceError, InputError
 from granum.drying.equipment.web_ovens import ImpingementDryer, RadiantDryer
 from granum.drying.formulas.assisted import drying_rate_assisted
 from granum.drying.formulas.impingement import nusselt_number_impinging_slots
@@ -112,6 +113,16 @@ def test_emitters_on_two_sides_give_twice_and_microwaves_decay() -> None:
     power = 2.0 * np.pi * 2.45e9 * 8.8541878128e-12 * 10.0 * 1e8
     assert float(thin(0.0, 300.0)) == pytest.approx(power * 1e-4, rel=0.01)
     assert float(thick(0.0, 300.0)) < 0.02 * power  # of a meter: the depth is 14 mm
+
+
+def test_a_web_that_would_burn_is_refused() -> None:
+    """Dry under emitters of 900 °C it was followed past the critical point of water, to 1700 °C: hotter than
+    what heats it.
+    """
+    emitter = InfraredEmitter(1173.15, view_factor=0.7)
+    oven = RadiantDryer(width=1.8, length=3.0, dry_mass_per_area=0.15, radiant_heat=emitter)
+    with pytest.raises(ConvergenceError, match="dry and heats on"):
+        alone(oven, feed=FEED, gas=AIR)
 
 
 def test_sized_length_reaches_its_moisture() -> None:

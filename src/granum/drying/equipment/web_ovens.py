@@ -13,6 +13,7 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
@@ -55,6 +56,10 @@ SHORTEST, LONGEST = 0.05, 2000.0  # m, between which a length is sought
 NOZZLE_HEADS = 2.0
 HEADS = "martin1977, the speed only: two velocity heads of the jets are our own estimate"
 _TOO_FAST = "The web heats up too fast to be followed: give weaker radiation, a heavier web or a shorter way."
+_BURNT = (
+    "The web is dry and heats on beyond the critical temperature of its liquid, where none of this holds: "
+    "give weaker radiation, a shorter way or a higher speed."
+)
 _UNSOLVED = "No humidity of the oven was found at which web and air agree: give more air, or drier."
 
 
@@ -132,8 +137,13 @@ class AbstractWebOven(Unit):
         """The way of the web in the air that it makes itself."""
         found = _solved(self, feed, gas)
         followed = jnp.isfinite(found["highest"]) & (found["T2"] > COLDEST) & (found["highest"] < HOTTEST)
-        unsolved(followed, type(self).card, reason=_TOO_FAST)  # pyright: ignore[reportAttributeAccessIssue]
-        unsolved(found["converged"] | ~followed, type(self).card, reason=_UNSOLVED)  # pyright: ignore[reportAttributeAccessIssue]
+        # past it there is no heat of vaporization, and the steps run away
+        critical = HumidMixture(gas.mixture).fluid.critical_temperature
+        burnt = found["highest"] > (critical if math.isfinite(critical) else HOTTEST)
+        card: Card = type(self).card  # pyright: ignore[reportAttributeAccessIssue]
+        unsolved(~burnt, card, reason=_BURNT)
+        unsolved(followed | burnt, card, reason=_TOO_FAST)
+        unsolved(found["converged"] | ~followed | burnt, card, reason=_UNSOLVED)
         return found
 
     def outlets(self, inside: dict[str, Any], feed: Stream, gas: Stream) -> WebDried:

@@ -134,7 +134,7 @@ class Dryer(Unit):
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
         "over": Limit(
             "moisture of the product above equilibrium with the inlet gas",
-            -1e-9,
+            -1e-6,
             math.inf,
             "kg/kg",
             "keey1978",
