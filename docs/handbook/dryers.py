@@ -106,7 +106,7 @@ grains = mixture("starch", 4e-4, 8e-4)
 def bed(cells, coils=0.0, gas=11.0):
     """1.2 t/h of grains of 0.6 mm from 0.30, fifty minutes in air of 130 °C."""
     unit = d.FluidBedDryer(
-        "3.5 m^2", "1 tonne", d.DiffusionKinetics(8e-12, 3e-4), cells=cells, heat_loss=jnp.asarray(-coils)
+        "3.5 m^2", "1 tonne", d.DiffusionKinetics(8e-12, 3e-4), cells=cells, coil_duty=jnp.asarray(coils)
     )
     return unit.operate(feed=wet(grains, 1.2, 0.30), gas=air(grains, gas, 130.0))
 

@@ -1,12 +1,14 @@
-"""A dryer that gets no solid is a duct that loses heat."""
+"""A dryer that gets no solid is a duct that loses heat; what it is given by coils is not free."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import jax.numpy as jnp
 import pytest
 from tests.dust.test_fines import KINETICS, air, solid
 
+from granum.core.errors import InputError
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.flash import FlashDryer
 from granum.drying.equipment.fluid_bed import FluidBedDryer
@@ -37,3 +39,28 @@ def test_the_gas_loses_what_the_dryer_loses(name: str) -> None:
     assert float(made.outlets.heat_duty) == pytest.approx(-LOSS, rel=1e-9)
     assert 350.0 - float(made.outlets.exhaust.temperature) == pytest.approx(2.43, abs=0.01)
     assert float(made.outlets.product.mass_flow) == 0.0
+
+
+@pytest.mark.parametrize("cells", [1, 6])
+def test_coils_in_a_bed_are_heat_that_somebody_pays(cells: int) -> None:
+    """As a loss of their size with the other sign, and in the bill; they evaporate no more than they can."""
+    feed, gas = solid(), air(2.0)
+
+    def operated(**heat: float) -> Any:
+        bed = FluidBedDryer(1.0, 100.0, KINETICS, cells=cells, **heat)
+        return bed.operate(feed=feed, gas=gas)
+
+    bare, coiled, both = operated(), operated(coil_duty=LOSS), operated(coil_duty=LOSS, heat_loss=LOSS)
+    given = sum(float(x) for name, x in coiled.uses.items() if name.startswith("heat_input_"))
+    assert given - float(bare.uses["heat_input_hot_gas"]) == pytest.approx(LOSS, rel=1e-9)
+    assert float(coiled.outlets.heat_duty) == pytest.approx(LOSS, rel=1e-9)
+    more = coiled.figures.evaporation_rate - bare.figures.evaporation_rate
+    assert 0.0 < float(more) * 2.3e6 < LOSS
+    for one, other in zip(both.outlets.product.components, bare.outlets.product.components, strict=True):
+        assert jnp.allclose(one, other, rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", EMPTY)
+def test_a_loss_by_which_heat_comes_in_is_refused(name: str) -> None:
+    with pytest.raises(InputError, match="heat_loss"):
+        type(EMPTY[name])(**(vars(EMPTY[name]) | {"heat_loss": -LOSS}))

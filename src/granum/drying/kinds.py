@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any
 
-from granum.core.kinds import Kind
+from granum.core.kinds import Kind, Power, Within
 
+# heat that a dryer is given is a utility, and has inputs of its own
+LostHeat = Annotated[Power, Within(0.0, math.inf)]
 # zero where there is none
 AddedHeatTransferCoefficient = Annotated[
     Any, Kind("heat transfer coefficient", "W/(m^2*K)", 0.0, display=("W/(m^2*K)", "kcal/(m^2*hour*K)"))

@@ -33,6 +33,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.drying.balances.savings import vapor_recompression
+from granum.drying.kinds import LostHeat
 from granum.drying.wet_surface import AS_SPECIFIED, boiled
 from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import steam_enthalpy
@@ -395,7 +396,7 @@ class ClosedDryer(Unit):
     temperature_inlet: Temperature
     moisture_outlet: MoistureDryBasis
     temperature_product: Temperature | None = None
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
     fan_power: Power = 0.0
     temperature_limit: Temperature | None = None
 

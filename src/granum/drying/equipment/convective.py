@@ -28,6 +28,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.drying.equipment.well_mixed import evaporate
+from granum.drying.kinds import LostHeat
 from granum.drying.wet_surface import AS_SPECIFIED
 from granum.numerics import find_root, safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
@@ -110,7 +111,7 @@ class ConvectiveDryer(Unit):
     temperature_product: Temperature | None = None
     recirculated_fraction: Fraction = 0.0
     effectiveness: Fraction = 0.0
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
     fan_power: Power = 0.0
     temperature_limit: Temperature | None = None
     isotherm: Annotated[Any, Law("isotherm")] = None

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature, Within
+from granum.core.kinds import Fraction, Law, Length, Speed, Temperature, Within
 from granum.core.limits import Limit
 from granum.drying.gas_solid.cells import Inlet, Network
 from granum.drying.gas_solid.conveyed import Path, convey, liquid_density
@@ -18,6 +18,7 @@ from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Thr
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
+from granum.drying.kinds import LostHeat
 from granum.streams.atmosphere import VENTED
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.fines import fall, lifted
@@ -46,7 +47,7 @@ class FlashDryer(Dryer):
     kinetics: Annotated[Any, Law("drying_kinetics")]
     feed_velocity: Speed = 1.0
     downward: Fraction = 0.0
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 60
     entrainment: bool = False

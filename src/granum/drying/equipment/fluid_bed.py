@@ -13,7 +13,7 @@ from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
+from granum.core.kinds import Area, Fraction, Law, Mass, Temperature, VoidFraction, Within
 from granum.core.limits import Limit
 from granum.drying.gas_solid.cells import Contact, Inlet, Network, Profile
 from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, ready, sized
@@ -21,6 +21,7 @@ from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
 from granum.drying.gas_solid.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
+from granum.drying.kinds import LostHeat
 from granum.fluidization.equipment.bed import FluidizedBed
 from granum.fluidization.formulas.bubbles import (
     bubble_diameter_darton,
@@ -34,7 +35,7 @@ from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
-from granum.streams.utilities import AREA
+from granum.streams.utilities import AREA, HEATED, heated
 
 TABLE = NOTES.format(table="IV.16")
 DISTRIBUTOR = 0.3  # of the pressure drop of the bed
@@ -51,9 +52,10 @@ class FluidBedDryer(CellDryer):
     bubbles.
 
     With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed
-    times, so that some leave as they came. With more cells solid flows along the bed through that many tanks
-    in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its way up,
-    unless it is given. With ``entrainment`` the exhaust takes fines along by their elutriation constant, as
+    times, so that some leave as they came. With more cells solid flows along the bed through that many
+    tanks in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its
+    way up, unless it is given. ``coil_duty`` is heat by coils in the bed, alike in all cells. With
+    ``entrainment`` the exhaust takes fines along by their elutriation constant, as
     ``fluidization.fluidized_bed`` does; else all solid overflows. An ``explosion_vent`` is that of the
     chamber.
     """
@@ -64,10 +66,11 @@ class FluidBedDryer(CellDryer):
     cells: Annotated[int, Within(1, 500)] = 1
     bypass_fraction: Fraction | None = None
     void_fraction: VoidFraction = 0.45
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
     temperature_limit: Temperature | None = None
     entrainment: bool = False
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
+    coil_duty: LostHeat = 0.0
 
     limits: ClassVar[Limits] = (
         CellDryer.limits
@@ -83,10 +86,15 @@ class FluidBedDryer(CellDryer):
         | VENTED
     )
 
-    utilities: ClassVar[Utilities] = CellDryer.utilities | AREA
+    utilities: ClassVar[Utilities] = CellDryer.utilities | HEATED | AREA
 
     def extent(self) -> Any:
         return self.area
+
+    @property
+    def lost(self) -> Any:
+        """Heat that the bed loses, less that of its coils, W."""
+        return self.heat_loss - self.coil_duty
 
     def height(self, feed: Stream) -> Any:
         """Of the settled bed."""
@@ -143,7 +151,7 @@ class FluidBedDryer(CellDryer):
             bed.gas_flow,
             Network.cross_current(n),
             lambda X, Ts, Tg, Y: bed.exchange,
-            heat_loss=self.heat_loss / n,
+            heat_loss=self.lost / n,
         )
 
     def bed(self, feed: Stream, gas: Stream) -> Bed:
@@ -151,9 +159,7 @@ class FluidBedDryer(CellDryer):
         matter = Matter.of(feed, gas)
         dry = matter.humid.carrier_flow(gas) * (1.0 - self.bypass(feed, gas))
         time = self.mass / jnp.maximum(feed.solid_flow, 1e-12)
-        return Bed(
-            matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.heat_loss
-        )
+        return Bed(matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.lost)
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         found, share = _fluidized(self, feed, gas), self.bypass(feed, gas)
@@ -211,7 +217,8 @@ class FluidBedDryer(CellDryer):
     def drawn(
         self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
-        return super().drawn(inside, outlets, figures, feed, gas) | {"area_installed": self.area}
+        coils = heated(self.coil_duty, figures.temperature_product_highest)
+        return super().drawn(inside, outlets, figures, feed, gas) | coils | {"area_installed": self.area}
 
 
 @ready

@@ -14,7 +14,6 @@ from granum.core.kinds import (
     Law,
     Length,
     PositiveNumber,
-    Power,
     Temperature,
     TurningSpeed,
     Within,
@@ -31,6 +30,7 @@ from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures,
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.matter import Matter
 from granum.drying.gas_solid.steam import in_steam
+from granum.drying.kinds import LostHeat
 from granum.streams.cakes import solid_diameter
 from granum.streams.fines import fall, finest, showered
 from granum.streams.stream import Stream
@@ -69,7 +69,7 @@ class RotaryDryer(CellDryer):
     wall_coefficient: HeatTransferCoefficient | None = None
     wall_temperature: Temperature = 423.15
     wetted_share: Fraction = 0.15
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 40
     entrainment: bool = False

@@ -17,7 +17,6 @@ from granum.core.kinds import (
     Law,
     Length,
     PositiveNumber,
-    Power,
     Ratio,
     SurfaceTension,
     Temperature,
@@ -32,6 +31,7 @@ from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Thr
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
+from granum.drying.kinds import LostHeat
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import VENTED
 from granum.streams.equilibrium import HumidMixture
@@ -67,7 +67,7 @@ class SprayDryer(Dryer):
     gas_dispersion: Ratio | None = None
     dynamic_viscosity: DynamicViscosity = 0.01
     surface_tension: SurfaceTension = 0.06
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 50
     entrainment: bool = False

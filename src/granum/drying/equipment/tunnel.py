@@ -11,7 +11,6 @@ from granum.core.kinds import (
     Area,
     HeatTransferCoefficient,
     Law,
-    Power,
     SpecificSurfaceMass,
     Temperature,
     Time,
@@ -25,6 +24,7 @@ from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures,
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.matter import Matter
 from granum.drying.gas_solid.steam import in_steam
+from granum.drying.kinds import LostHeat
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
@@ -47,7 +47,7 @@ class TunnelDryer(CellDryer):
     kinetics: Annotated[Any, Law("drying_kinetics")]
     gas_direction: Literal["counter-current", "co-current"] = "counter-current"
     heat_transfer_coefficient: HeatTransferCoefficient | None = None
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 40
 

@@ -27,6 +27,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.drying.gas_solid.dryer import Dried
+from granum.drying.kinds import LostHeat
 from granum.drying.wet_surface import crystallized
 from granum.humid_gas.relations import wet_bulb_balance
 from granum.numerics import find_root, safe_divide
@@ -73,7 +74,7 @@ class WellMixedDryer(Unit):
 
     residence_time: Time
     gas_velocity: Speed
-    heat_loss: Power = 0.0
+    heat_loss: LostHeat = 0.0
 
     limits: ClassVar[Limits] = {
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
