@@ -69,6 +69,33 @@ stored = d.bin_aeration(
     temperature_air="10 degC",
     relative_humidity=0.65,
 )
+
+
+def binned(hours):
+    """The same bin, followed in layers, its fan on for some hours."""
+    dry = 100e3 / 1.18
+    line = gr.alone(
+        "drying.grain_bin",
+        area="20 m2",
+        height=dry / 620.0 / 20.0,
+        feed={
+            "temperature": "30 degC",
+            "solid_flow": dry / hours / 3600.0,
+            "liquid_flow": 0.18 * dry / hours / 3600.0,
+        },
+        gas={
+            "temperature": "10 degC",
+            "gas_flow": float(stored.superficial_velocity) * 20.0 * 1.243,
+            "relative_humidity": 0.65,
+        },
+    )
+    (unit,) = line.solve().units.values()
+    return unit
+
+
+layered = {hours: binned(hours) for hours in (84, 126)}
+top = {hours: float(unit.values.temperature_product_highest) for hours, unit in layered.items()}
+(drips,) = [float(c.value) for c in layered[126].checks if "moistest" in c.name]
 floor = d.equilibrium_moisture(float(hot.relative_humidity), isotherm="maize", temperature="50 degC")
 net = {
     x: float(d.isosteric_heat(x, isotherm="maize", temperature="50 degC").isosteric_heat_net)

@@ -97,6 +97,10 @@ from granum.drying.equipment.freeze_trays import (
     TrayFreezeDryer as TrayFreezeDryer,
     TrayFreezeFigures as TrayFreezeFigures,
 )
+from granum.drying.equipment.grain_bin import (
+    BinFigures as BinFigures,
+    GrainBin as GrainBin,
+)
 from granum.drying.equipment.paddle import (
     ContactCurve as ContactCurve,
     Heat as Heat,
@@ -315,6 +319,7 @@ from granum.drying.gas_solid.dryer import (
 from granum.drying.gas_solid.kinetics import (
     AbstractKinetics as AbstractKinetics,
     DiffusionKinetics as DiffusionKinetics,
+    EquilibriumKinetics as EquilibriumKinetics,
     Meeting as Meeting,
     ReactionKinetics as ReactionKinetics,
     SurfaceKinetics as SurfaceKinetics,
