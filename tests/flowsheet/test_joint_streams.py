@@ -328,6 +328,7 @@ AS_ALONE = (  # with the values with which they open by themselves
     "drying.radiant_dryer",
     "drying.tray_freeze_dryer",
     "drying.vacuum_shelf_dryer",
+    "drying.wood_kiln",
     "settling.flocculator",
     "streams.fan",
     "streams.pump",
@@ -392,6 +393,7 @@ SPECIAL = {
     "drying.grain_bin": {"feed": "cake", "gas": "wet air"},
     "drying.tray_freeze_dryer": {"feed": "slurry"},
     "drying.vacuum_shelf_dryer": {"feed": "cake"},
+    "drying.wood_kiln": {"feed": "cake", "gas": "wet air"},
     "drying.drum_dryer": {"feed": "slurry"},
 }
 

@@ -33,6 +33,9 @@ from granum.drying.balances.system import (
     Step as Step,
     System as System,
 )
+from granum.drying.boards import (
+    Board as Board,
+)
 from granum.drying.bodies import (
     Body as Body,
     BodyDrying as BodyDrying,
@@ -149,6 +152,12 @@ from granum.drying.equipment.web_ovens import (
 from granum.drying.equipment.well_mixed import (
     WellMixedDryer as WellMixedDryer,
     WellMixedFigures as WellMixedFigures,
+)
+from granum.drying.equipment.wood_kiln import (
+    KilnDried as KilnDried,
+    KilnFigures as KilnFigures,
+    Run as Run,
+    WoodKiln as WoodKiln,
 )
 from granum.drying.formulas.aeration import (
     Aerated as Aerated,
@@ -292,6 +301,13 @@ from granum.drying.formulas.vials import (
     cake_vapor_resistance as cake_vapor_resistance,
     frozen_height as frozen_height,
     vial_heat_transfer as vial_heat_transfer,
+)
+from granum.drying.formulas.wood import (
+    KilnAir as KilnAir,
+    Schedule as Schedule,
+    fiber_saturation as fiber_saturation,
+    kiln_air as kiln_air,
+    wood_diffusivity as wood_diffusivity,
 )
 from granum.drying.gas_solid.cells import (
     CellRow as CellRow,
