@@ -164,6 +164,10 @@ kiln = {mm: charge(mm) for mm in (28.6, 57.2)}
 green = d.kiln_air(0.6)
 
 
+(sunny,) = (unit.values for unit in gr.alone("drying.solar_dryer").solve().units.values())
+spread = {net: float(d.drying_flux_penman(net, 2.0, 304.0, 0.4)) * 12 * 3600.0 for net in (0.0, 350.0)}
+
+
 def vial(shelf, pressure):
     """A fill of 7 mm in primary drying, at °C and Pa, in the vial of Shivkumar and others."""
     per_volume = float(d.frozen_height("1 mL", "3.14 cm^2", "0.05 g/mL"))

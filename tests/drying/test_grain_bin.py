@@ -43,7 +43,7 @@ def test_maize_dries_with_ambient_air_in_the_weeks_that_are_told() -> None:
     14 to 14.5 %.
     """
     dryer = GrainBin(30.0, 4.0, layers=30)
-    dry = float(dryer.holdup())
+    dry = float(dryer.extent() * dryer.bulk_density_dry)
     flow = CFM_PER_BUSHEL * dry * 1.25 * 1.24  # wet grain, density of the air
 
     def after(days: float) -> Any:
@@ -62,7 +62,7 @@ def test_cold_air_carries_little_water_away() -> None:
     isotherm = PRODUCTS["maize"]()
     assert wet_basis(isotherm.moisture(0.7, 281.5)) == pytest.approx(0.16, abs=0.006)
     dryer, X = GrainBin(30.0, 4.0), 0.21 / 0.79
-    dry = float(dryer.holdup())
+    dry = float(dryer.extent() * dryer.bulk_density_dry)
     gas = air(281.5, 0.7, 2.0)
     made = dryer.operate(feed=grain(X, dry / (10.0 * DAY), 281.5), gas=gas).figures
     taken = float(made.evaporation_rate) / float(gas.gas_flow)
@@ -74,7 +74,7 @@ def test_cooling_takes_the_hours_of_farms_and_the_water_of_farms() -> None:
     per 10 °F.
     """
     dryer = GrainBin(30.0, 5.0, layers=40)
-    dry, X = float(dryer.holdup()), 0.17
+    dry, X = float(dryer.extent() * dryer.bulk_density_dry), 0.17
     gas = air(288.15, 0.7, 0.1 * CFM_PER_BUSHEL * dry * (1.0 + X) * 1.22)
 
     def after(hours: float) -> Any:
@@ -93,7 +93,7 @@ def test_the_layers_end_where_the_fronts_end() -> None:
     cooling front half of the bin is cold.
     """
     dryer = GrainBin(30.0, 5.0, layers=60, steps=80)
-    dry = float(dryer.holdup())
+    dry = float(dryer.extent() * dryer.bulk_density_dry)
     gas = air(285.0, 0.6, 2.0)
 
     def after(time: float) -> Any:
@@ -123,7 +123,7 @@ def test_a_hundred_bins_keep_their_books() -> None:
         dryer = GrainBin(20.0 + 180.0 * u[0], 2.0 + 10.0 * u[1], layers=10, steps=25)
         time = DAY * (1.0 + 40.0 * u[2])
         T = 278.0 + 27.0 * u[3]
-        feed = grain(0.11 + 0.17 * u[4], dryer.holdup() / time, T)
+        feed = grain(0.11 + 0.17 * u[4], dryer.extent() * dryer.bulk_density_dry / time, T)
         Ta = 274.0 + 26.0 * u[5]
         gas = air(Ta, 0.3 + 0.55 * u[6], dryer.extent() * 3e-4 * 60.0 ** u[7] * 1.2)
 

@@ -124,6 +124,10 @@ from granum.drying.equipment.silo import (
     DriedGrain as DriedGrain,
     SiloDryer as SiloDryer,
 )
+from granum.drying.equipment.solar import (
+    SolarDryer as SolarDryer,
+    SolarFigures as SolarFigures,
+)
 from granum.drying.equipment.spray import (
     SprayDryer as SprayDryer,
 )
@@ -275,6 +279,13 @@ from granum.drying.formulas.rotary import (
     residence_time_saeman_mitchell as residence_time_saeman_mitchell,
     shaft_power_rotary_drum as shaft_power_rotary_drum,
     volumetric_heat_transfer_rotary as volumetric_heat_transfer_rotary,
+)
+from granum.drying.formulas.solar import (
+    Draft as Draft,
+    SolarHeat as SolarHeat,
+    chimney_draft as chimney_draft,
+    drying_flux_penman as drying_flux_penman,
+    solar_collector as solar_collector,
 )
 from granum.drying.formulas.storage import (
     GrowthMargin as GrowthMargin,

@@ -163,19 +163,19 @@ class GrainBin(LayerDryer):
     def resolution(self) -> tuple[int, int]:
         return self.layers, self.steps
 
-    def holdup(self) -> Any:
+    def holdup(self, feed: Stream) -> Any:
         return self.extent() * self.bulk_density_dry
 
     def blown(self, feed: Stream, gas: Stream) -> Any:
         """Dry air per dry grain and second."""
-        return HumidMixture(feed.mixture).carrier_flow(gas) / self.holdup()
+        return HumidMixture(feed.mixture).carrier_flow(gas) / self.holdup(feed)
 
     def exchange(self, feed: Stream, gas: Stream) -> Any:
         return UNITS * self.layers * self.blown(feed, gas) * gas.gas_heat_capacity
 
     def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
         (gas,) = gases
-        time = self.holdup() / jnp.maximum(feed.solid_flow, 1e-12)
+        time = self.holdup(feed) / jnp.maximum(feed.solid_flow, 1e-12)
         humidity = HumidMixture(feed.mixture).vapor_per_carrier(gas)
         return [Zone(time, self.blown(feed, gas), False, humidity, gas.temperature)]
 
