@@ -20,7 +20,6 @@ from granum.drying.equipment.flash import FlashDryer
 from granum.drying.equipment.fluid_bed import FluidBedDryer
 from granum.drying.equipment.freeze import FreezeDryer
 from granum.drying.equipment.freeze_trays import TrayFreezeDryer
-from granum.drying.equipment.grain_bin import GrainBin
 from granum.drying.equipment.paddle import PaddleDryer
 from granum.drying.equipment.paper import PaperMachine
 from granum.drying.equipment.rotary import RotaryDryer
@@ -343,17 +342,6 @@ def _infrared(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
 
 
 BY_BALANCE: dict[str, Callable[..., Setting]] = {
-    "grain bin": _by_balance(
-        lambda d, a, b, c, e, f, g: GrainBin(
-            area=d.feed.solid_flow / 620.0 * between(a, 1.0, 60.0) * 86400.0 / (2.0 + 8.0 * b),
-            height=2.0 + 8.0 * b,
-            packing_resistance=1.0 + 0.5 * c,
-            layers=12,
-            steps=30,
-        ),
-        GRAIN,
-        fresh=True,
-    ),
     "wood kiln": _by_balance(
         lambda d, a, b, c, e, f, g: WoodKiln(
             0.019 + 0.04 * a,

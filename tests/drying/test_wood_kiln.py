@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 from tests.dust.test_collectors import alone
 
 import granum as gr
@@ -66,11 +66,10 @@ def test_below_saturation_it_is_cranks_plate() -> None:
     low = float(gr.drying.kiln_air(0.1).moisture_dry_basis_equilibrium)
     found = followed(board, OAK, 0.14, 0.06, 101325.0)
     ratio = (0.06 - low) / (0.14 - low)
-    fourier = brentq(
+    fourier = root_scalar(
         lambda fo: float(gr.drying.moisture_ratio_plate(fo, half_thickness=1.0, diffusivity=1.0)) - ratio,
-        0.01,
-        3.0,
-    )
+        bracket=(0.01, 3.0),
+    ).root
     assert float(reached(found, 0.14, 0.06)[0]) == pytest.approx(fourier * 0.0127**2 / D, rel=0.01)
 
 

@@ -129,7 +129,9 @@ class GrainBin(LayerDryer):
 
     utilities: ClassVar[Utilities] = FANNED | AREA
 
-    temperature_limit = None
+    @property
+    def temperature_limit(self) -> None:
+        """None: ambient air harms no grain."""
 
     @property
     def kinetics(self) -> EquilibriumKinetics:
