@@ -35,6 +35,7 @@ from granum.drying.balances.system import (
 )
 from granum.drying.boards import (
     Board as Board,
+    BoardDrying as BoardDrying,
 )
 from granum.drying.bodies import (
     Body as Body,

@@ -32,7 +32,7 @@ class Board(NamedTuple):
     diffusivity: tuple[Any, Any, Any]
 
 
-class Dried(NamedTuple):
+class BoardDrying(NamedTuple):
     """Over time, from green on: time, mean moisture, that of core and surface, and temperature, wet bulb and
     relative humidity of the air of the step that ends there.
     """
@@ -51,7 +51,7 @@ class _State(NamedTuple):
     time: Any
 
 
-def followed(board: Board, schedule: Schedule, first: Any, last: Any, pressure: Any) -> Dried:
+def followed(board: Board, schedule: Schedule, first: Any, last: Any, pressure: Any) -> BoardDrying:
     """A board from a moisture to another, dt by dt such that the mean falls evenly; it stays where it is once
     it is there.
 
@@ -95,7 +95,7 @@ def followed(board: Board, schedule: Schedule, first: Any, last: Any, pressure: 
         change = -jnp.linalg.solve(jnp.eye(n) * mass + dt * matrix, dt * net)
         new = _State(X + change, state.time + dt)
         skin = low + outer / film * (jnp.minimum(new.moisture[-1], full) - low)
-        found = Dried(
+        found = BoardDrying(
             new.time,
             jnp.mean(new.moisture),
             new.moisture[0],
@@ -111,7 +111,7 @@ def followed(board: Board, schedule: Schedule, first: Any, last: Any, pressure: 
     return found
 
 
-def reached(found: Dried, first: Any, last: Any) -> tuple[Any, Any]:
+def reached(found: BoardDrying, first: Any, last: Any) -> tuple[Any, Any]:
     """Time at which the mean has a moisture, and whether it does."""
     time, X = jnp.append(0.0, found.time), jnp.append(first, found.moisture)
     at = jnp.argmax(last >= X)
@@ -121,7 +121,7 @@ def reached(found: Dried, first: Any, last: Any) -> tuple[Any, Any]:
     return time[jnp.maximum(at - 1, 0)] + part * (time[at] - time[jnp.maximum(at - 1, 0)]), known
 
 
-def most_in_a_day(found: Dried, first: Any, last: Any) -> Any:
+def most_in_a_day(found: BoardDrying, first: Any, last: Any) -> Any:
     """Largest fall of the mean in a day, while it is so wet that its surface may check; the first day, which
     dries the skin, is not counted.
     """

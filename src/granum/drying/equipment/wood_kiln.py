@@ -30,7 +30,7 @@ from granum.core.kinds import (
     Volume,
 )
 from granum.core.limits import Limit
-from granum.drying.boards import Board, Dried, followed, most_in_a_day, reached
+from granum.drying.boards import Board, BoardDrying, followed, most_in_a_day, reached
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
 from granum.drying.formulas.wood import (
     RED_OAK,
@@ -91,7 +91,7 @@ class KilnFigures(NamedTuple):
 class Run(NamedTuple):
     """A charge: in time, the time until it is dry, and the heat transfer coefficient."""
 
-    found: Dried
+    found: BoardDrying
     time: Any
     heat_transfer: Any
     first: Any
@@ -247,7 +247,7 @@ class WoodKiln(Unit):
 
 
 @ready
-def _run(kiln: WoodKiln, first: Any, heat_transfer: Any, pressure: Any) -> Dried:
+def _run(kiln: WoodKiln, first: Any, heat_transfer: Any, pressure: Any) -> BoardDrying:
     board = Board(
         0.5 * kiln.thickness,
         kiln.basic_density,
