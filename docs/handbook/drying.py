@@ -69,6 +69,33 @@ stored = d.bin_aeration(
     temperature_air="10 degC",
     relative_humidity=0.65,
 )
+
+
+def binned(hours):
+    """The same bin, followed in layers, its fan on for some hours."""
+    dry = 100e3 / 1.18
+    line = gr.alone(
+        "drying.grain_bin",
+        area="20 m2",
+        height=dry / 620.0 / 20.0,
+        feed={
+            "temperature": "30 degC",
+            "solid_flow": dry / hours / 3600.0,
+            "liquid_flow": 0.18 * dry / hours / 3600.0,
+        },
+        gas={
+            "temperature": "10 degC",
+            "gas_flow": float(stored.superficial_velocity) * 20.0 * 1.243,
+            "relative_humidity": 0.65,
+        },
+    )
+    (unit,) = line.solve().units.values()
+    return unit
+
+
+layered = {hours: binned(hours) for hours in (84, 126)}
+top = {hours: float(unit.values.temperature_product_highest) for hours, unit in layered.items()}
+(drips,) = [float(c.value) for c in layered[126].checks if "moistest" in c.name]
 floor = d.equilibrium_moisture(float(hot.relative_humidity), isotherm="maize", temperature="50 degC")
 net = {
     x: float(d.isosteric_heat(x, isotherm="maize", temperature="50 degC").isosteric_heat_net)
@@ -125,6 +152,20 @@ gain_warmer = float(flux_warmer) / float(flux)
 sliced = {mm: float(d.drying_time_diffusion(0.1, f"{mm / 2} mm", "3e-10 m^2/s")) for mm in (2.5, 5, 10)}
 cubes = {mm: float(d.drying_time_diffusion(0.1 ** (1 / 3), f"{mm / 2} mm", "3e-10 m^2/s")) for mm in (5, 10)}
 drop = float(d.drying_time_diffusion(0.1, "50 um", "3e-10 m^2/s", shape="sphere"))
+
+
+def charge(thickness):
+    """Green red oak in a kiln by T4-D2, mm."""
+    (unit,) = gr.alone("drying.wood_kiln", thickness=f"{thickness} mm").solve().units.values()
+    return unit.values
+
+
+kiln = {mm: charge(mm) for mm in (28.6, 57.2)}
+green = d.kiln_air(0.6)
+
+
+(sunny,) = (unit.values for unit in gr.alone("drying.solar_dryer").solve().units.values())
+spread = {net: float(d.drying_flux_penman(net, 2.0, 304.0, 0.4)) * 12 * 3600.0 for net in (0.0, 350.0)}
 
 
 def vial(shelf, pressure):

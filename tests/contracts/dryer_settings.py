@@ -30,6 +30,7 @@ from granum.drying.equipment.tunnel import TunnelDryer
 from granum.drying.equipment.vacuum_shelves import VacuumShelfDryer
 from granum.drying.equipment.web_ovens import ImpingementDryer, RadiantDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
+from granum.drying.equipment.wood_kiln import WoodKiln
 from granum.drying.gas_solid.kinetics import (
     DiffusionKinetics,
     ReactionKinetics,
@@ -345,6 +346,18 @@ def _infrared(d: Duty, a: Any, b: Any, c: Any, e: Any, f: Any, g: Any) -> Any:
 
 
 BY_BALANCE: dict[str, Callable[..., Setting]] = {
+    "wood kiln": _by_balance(
+        lambda d, a, b, c, e, f, g: WoodKiln(
+            0.019 + 0.04 * a,
+            0.06 + 0.14 * b,
+            350.0 + 350.0 * c,
+            gas_velocity=1.0 + 3.0 * e,
+            diffusivity_preexponential=19.2e-4 * between(f, 1.0, 6.0),
+            heat_loss_share=0.4 * g,
+        ),
+        GRAIN,
+        fresh=True,
+    ),
     "moisture": _by_balance(
         lambda d, a, b, c, e, f, g: ConvectiveDryer(
             temperature_inlet=d.gas.temperature,

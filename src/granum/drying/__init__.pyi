@@ -33,6 +33,10 @@ from granum.drying.balances.system import (
     Step as Step,
     System as System,
 )
+from granum.drying.boards import (
+    Board as Board,
+    BoardDrying as BoardDrying,
+)
 from granum.drying.bodies import (
     Body as Body,
     BodyDrying as BodyDrying,
@@ -97,6 +101,10 @@ from granum.drying.equipment.freeze_trays import (
     TrayFreezeDryer as TrayFreezeDryer,
     TrayFreezeFigures as TrayFreezeFigures,
 )
+from granum.drying.equipment.grain_bin import (
+    BinFigures as BinFigures,
+    GrainBin as GrainBin,
+)
 from granum.drying.equipment.paddle import (
     ContactCurve as ContactCurve,
     Heat as Heat,
@@ -116,6 +124,10 @@ from granum.drying.equipment.rotary import (
 from granum.drying.equipment.silo import (
     DriedGrain as DriedGrain,
     SiloDryer as SiloDryer,
+)
+from granum.drying.equipment.solar import (
+    SolarDryer as SolarDryer,
+    SolarFigures as SolarFigures,
 )
 from granum.drying.equipment.spray import (
     SprayDryer as SprayDryer,
@@ -145,6 +157,12 @@ from granum.drying.equipment.web_ovens import (
 from granum.drying.equipment.well_mixed import (
     WellMixedDryer as WellMixedDryer,
     WellMixedFigures as WellMixedFigures,
+)
+from granum.drying.equipment.wood_kiln import (
+    KilnDried as KilnDried,
+    KilnFigures as KilnFigures,
+    Run as Run,
+    WoodKiln as WoodKiln,
 )
 from granum.drying.formulas.aeration import (
     Aerated as Aerated,
@@ -263,6 +281,13 @@ from granum.drying.formulas.rotary import (
     shaft_power_rotary_drum as shaft_power_rotary_drum,
     volumetric_heat_transfer_rotary as volumetric_heat_transfer_rotary,
 )
+from granum.drying.formulas.solar import (
+    Draft as Draft,
+    SolarHeat as SolarHeat,
+    chimney_draft as chimney_draft,
+    drying_flux_penman as drying_flux_penman,
+    solar_collector as solar_collector,
+)
 from granum.drying.formulas.storage import (
     GrowthMargin as GrowthMargin,
     moisture_for_storage as moisture_for_storage,
@@ -288,6 +313,13 @@ from granum.drying.formulas.vials import (
     cake_vapor_resistance as cake_vapor_resistance,
     frozen_height as frozen_height,
     vial_heat_transfer as vial_heat_transfer,
+)
+from granum.drying.formulas.wood import (
+    KilnAir as KilnAir,
+    Schedule as Schedule,
+    fiber_saturation as fiber_saturation,
+    kiln_air as kiln_air,
+    wood_diffusivity as wood_diffusivity,
 )
 from granum.drying.gas_solid.cells import (
     CellRow as CellRow,
@@ -315,6 +347,7 @@ from granum.drying.gas_solid.dryer import (
 from granum.drying.gas_solid.kinetics import (
     AbstractKinetics as AbstractKinetics,
     DiffusionKinetics as DiffusionKinetics,
+    EquilibriumKinetics as EquilibriumKinetics,
     Meeting as Meeting,
     ReactionKinetics as ReactionKinetics,
     SurfaceKinetics as SurfaceKinetics,

@@ -78,7 +78,7 @@ class BeltDryer(LayerDryer):
     def resolution(self) -> tuple[int, int]:
         return self.layers, self.steps
 
-    def holdup(self) -> Any:
+    def holdup(self, feed: Stream) -> Any:
         return self.area * self.layer_depth * self.bulk_density_dry
 
     def exchange(self, feed: Stream, gas: Stream) -> Any:
@@ -95,7 +95,7 @@ class BeltDryer(LayerDryer):
 
     def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
         gas = gases[0]
-        mass, n = self.holdup(), self.zone_count
+        mass, n = self.holdup(feed), self.zone_count
         humid = HumidMixture(gas.mixture)
         per_solid = humid.carrier_flow(gas) / mass
         time = mass / jnp.maximum(feed.solid_flow, 1e-12) / n

@@ -100,7 +100,7 @@ class SiloDryer(LayerDryer):
     def resolution(self) -> tuple[int, int]:
         return self.layers, self.steps
 
-    def holdup(self) -> Any:
+    def holdup(self, feed: Stream) -> Any:
         return self.volume * self.bulk_density_dry
 
     def area(self) -> Any:
@@ -117,7 +117,7 @@ class SiloDryer(LayerDryer):
 
     def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
         humid = HumidMixture(feed.mixture)
-        mass = self.holdup()
+        mass = self.holdup(feed)
         time = mass / jnp.maximum(feed.solid_flow, 1e-12)
         cooled = len(gases) > 1
         share = 1.0 - self.cooling_share if cooled else 1.0
@@ -203,4 +203,4 @@ def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) 
     like, found = dryer.passages(feed, *gases)
     flow = counted(feed).solid_flow
     profile = joined(like, found, flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
-    return Through(profile, dryer.holdup(), (flow * found[-1].vapor, flow * found[-1].gas_enthalpy))
+    return Through(profile, dryer.holdup(feed), (flow * found[-1].vapor, flow * found[-1].gas_enthalpy))

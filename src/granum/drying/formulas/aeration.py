@@ -155,6 +155,12 @@ def aeration_fronts(
     return Fronts(Tb, cooled, dry, cooling, jnp.maximum(drying, 0.0))
 
 
+def resistance_of(grain: str) -> dict[str, float]:
+    """Coefficient and constant of Shedd's law for a grain, and the speeds between which they were fitted."""
+    row = {str(r["grain"]): r for r in dataset("drying", "airflow_asaed272")}[grain]
+    return {name: float(row[name]) for name in ("coefficient", "constant", "velocity_low", "velocity_high")}
+
+
 class Aerated(NamedTuple):
     """Fan and times of an aerated bin; grain behind the fronts."""
 
@@ -219,8 +225,8 @@ def bin_aeration(
     35.9
     """
     U, depth = volume_flow / area, mass / (bulk_density * area)
-    row = {str(r["grain"]): r for r in dataset("drying", "airflow_asaed272")}[grain]
-    resistance = pressure_gradient_shedd.function(U, float(row["coefficient"]), float(row["constant"]))
+    row = resistance_of(grain)
+    resistance = pressure_gradient_shedd.function(U, row["coefficient"], row["constant"])
     lost = packing_resistance * depth * resistance
     power = fanned(volume_flow, lost)
     found = aeration_fronts.function(

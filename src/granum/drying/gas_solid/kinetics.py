@@ -24,8 +24,9 @@ from granum.core.kinds import (
     Temperature,
 )
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
+from granum.drying.formulas.storage import LIMITS
 from granum.drying.gas_solid.matter import Matter
-from granum.drying.isotherms.base import AbstractIsotherm
+from granum.drying.isotherms.base import ROOM, AbstractIsotherm
 from granum.drying.thin_layers.base import AbstractThinLayer
 from granum.numerics import find_root
 
@@ -323,6 +324,36 @@ class ThinLayerKinetics(AbstractKinetics):
         thin = (at.moisture - low) * jnp.where(jnp.isfinite(s), -fall / ratio, 0.0) * faster
         # no more than a wet surface gives: cold grain in moist air does not dry on, it is wetted
         return jnp.minimum(thin, at.film_rate())
+
+
+@law(
+    "drying_kinetics",
+    name="kinetics_equilibrium",
+    source="sutherland1971; keey1978",
+    title="Kinetics, surface in equilibrium with its moisture",
+    equation=r"-\frac{dX}{dt} = k\ln\frac{1+Y_s}{1+Y},\quad Y_s = Y(a(X, T_s)\,p_{sat}(T_s))",
+)
+class EquilibriumKinetics(AbstractKinetics):
+    """The gas film alone: the surface has the vapor pressure of the moisture and temperature of the solid, by
+    its isotherm, and what is too dry for the gas is wetted as fast as it would dry.
+
+    For what has time to even out inside: grain that air passes slowly for days.
+
+    >>> from granum.drying.isotherms.products import PRODUCTS
+    >>> round(float(EquilibriumKinetics(PRODUCTS["maize"]())()), 3)
+    0.163
+    """
+
+    isotherm: Isotherm
+
+    def __call__(self) -> MoistureDryBasis:
+        return self.isotherm.moisture(LIMITS["molds"], ROOM)
+
+    def equilibrium(self, at: Meeting) -> Any:
+        return at.equilibrium(self.isotherm)
+
+    def rate(self, at: Meeting) -> Any:
+        return at.film_rate(self.isotherm.activity(at.moisture, at.temperature))
 
 
 @law(

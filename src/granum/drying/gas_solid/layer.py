@@ -19,7 +19,7 @@ class LayerDryer(Dryer):
     """Layers of solid through which gas blows in zones, one after the other."""
 
     @abstractmethod
-    def holdup(self) -> Any:
+    def holdup(self, feed: Stream) -> Any:
         """Dry solid in the dryer, kg."""
 
     @abstractmethod
@@ -67,7 +67,7 @@ def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Through:
     profile = joined(
         like, found, counted(feed).solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found)
     )
-    return Through(profile, dryer.holdup())
+    return Through(profile, dryer.holdup(feed))
 
 
 def joined(like: Contact, found: list[Passage], flow: Any, vapor: Any, gas_enthalpy: Any) -> Profile:
