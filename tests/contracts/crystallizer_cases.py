@@ -9,7 +9,10 @@ import numpy as np
 from tests.contracts.unit_cases import crystallizers
 from tests.contracts.unit_search import Case, shares
 
-from granum.crystallization.equipment.antisolvent import AntisolventCrystallizer
+from granum.crystallization.equipment.antisolvent import (
+    AntisolventBatchCrystallizer,
+    AntisolventCrystallizer,
+)
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
@@ -113,6 +116,24 @@ def mixed(classes: int) -> dict[str, Case]:
                 AntisolventSolubility(PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), 1.0 + 5.0 * u[5]),
                 PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
                 PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
+                solid="nitrate",
+                solvent="water",
+                second_solvent="ethanol",
+            ),
+        ),
+        "drowned in batches": Case(
+            nitrate,
+            _met,
+            lambda f, u: AntisolventBatchCrystallizer(
+                285.0 + 25.0 * u[0],
+                duration=10.0 ** (3.0 + 2.0 * u[1]),
+                addition_exponent=0.5 + 3.0 * u[3],
+                seed_mass_per_solvent=0.02 * u[4],
+                solubility=AntisolventSolubility(
+                    PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), 1.0 + 5.0 * u[5]
+                ),
+                growth=PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+                nucleation=PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
                 solid="nitrate",
                 solvent="water",
                 second_solvent="ethanol",

@@ -38,6 +38,7 @@ LONG = {  # slow to compile, or solved by the code of a neighbor that is tried
     "centrifuges.scroll_screen",
     "centrifuges.sliding_screen",
     "centrifuges.tumbling_screen",
+    "crystallization.antisolvent_batch_crystallizer",
     "crystallization.batch_crystallizer",
     "crystallization.classified_crystallizer",
     "crystallization.jacketed_batch_crystallizer",

@@ -380,7 +380,9 @@ class AntisolventBatchCrystallizer(CycledVessel):
         volume = outlets.product.slurry_volume_flow * self.cycle
         seed, share = self._seed(feed, found), antisolvent_share(met, found, second)
         stirrer = self.stirrer_figures(outlets.product, volume)
-        return DrownedBatchFigures(made, part, share, *rest, seed, volume, outlets.heat_duty, *stirrer)
+        return DrownedBatchFigures._make(
+            (made, part, share, *rest, seed, volume, outlets.heat_duty, *stirrer)
+        )
 
     def measured(
         self,
