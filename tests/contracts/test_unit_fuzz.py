@@ -37,6 +37,7 @@ QUICK = (
     "recompression",
     "train",
     "drowned",
+    "drowned in batches",
     "ultrafiltration",
     "osmosis",
     "layers",
