@@ -46,11 +46,11 @@ def test_coils_in_a_bed_are_heat_that_somebody_pays(cells: int) -> None:
     """As a loss of their size with the other sign, and in the bill; they evaporate no more than they can."""
     feed, gas = solid(), air(2.0)
 
-    def operated(**heat: float) -> Any:
-        bed = FluidBedDryer(1.0, 100.0, KINETICS, cells=cells, **heat)
-        return bed.operate(feed=feed, gas=gas)
+    def operated(given: float, lost: float) -> Any:
+        heat = {"coil_duty": jnp.asarray(given), "heat_loss": jnp.asarray(lost)}
+        return FluidBedDryer(1.0, 100.0, KINETICS, cells=cells, **heat).operate(feed=feed, gas=gas)
 
-    bare, coiled, both = operated(), operated(coil_duty=LOSS), operated(coil_duty=LOSS, heat_loss=LOSS)
+    bare, coiled, both = operated(0.0, 0.0), operated(LOSS, 0.0), operated(LOSS, LOSS)
     given = sum(float(x) for name, x in coiled.uses.items() if name.startswith("heat_input_"))
     assert given - float(bare.uses["heat_input_hot_gas"]) == pytest.approx(LOSS, rel=1e-9)
     assert float(coiled.outlets.heat_duty) == pytest.approx(LOSS, rel=1e-9)

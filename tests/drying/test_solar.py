@@ -21,7 +21,6 @@ from granum.streams.stream import Stream, empty
 
 MIXTURE = mixture_of(["water"], ["sucrose"], ["dry air", "water"], [8e-3, 12e-3])
 FRUIT = VanMeelKinetics(1.5, isotherm=PRODUCTS["potato"]())
-RANDOM = np.random.default_rng(12)
 GAMMA_WIND = 67.4 * 6.43e6 / 86400.0 / 1e3  # W/(m² K): heat transfer that belongs to Penman's wind
 
 
@@ -50,7 +49,7 @@ def test_the_collector_of_duffie_and_its_ends() -> None:
 
 def test_the_collector_is_that_of_small_pieces() -> None:
     """Air warmed strip by strip, each losing by the temperature of its own air, in a hundred settings."""
-    x = RANDOM.uniform(size=(100, 6))
+    x = np.random.default_rng(12).uniform(size=(100, 6))
     G, A, m = 200.0 + 800.0 * x[:, 0], 1.0 + 20.0 * x[:, 1], 0.02 + 0.5 * x[:, 2]
     loss, factor, inlet = 3.0 + 6.0 * x[:, 3], 0.6 + 0.3 * x[:, 4], 290.0 + 20.0 * x[:, 5]
     found = gr.drying.solar_collector(
@@ -69,8 +68,7 @@ def test_penman_is_the_wet_surface_within_its_straight_line() -> None:
     """Balances of heat and mass of the surface without Penman's straight line, with the heat transfer that
     belongs to his wind: within 6 % where the surface is within four kelvin of the air.
     """
-    for _case in range(100):
-        u = RANDOM.uniform(size=4)
+    for u in np.random.default_rng(13).uniform(size=(100, 4)):
         wind, T, phi = 0.5 + 5.0 * u[0], 283.0 + 25.0 * u[1], 0.3 + 0.6 * u[2]
         net = 20.0 + 250.0 * u[3]
         flux = float(gr.drying.drying_flux_penman(net, wind, T, phi))
@@ -140,7 +138,7 @@ def test_without_sun_it_is_air_through_a_layer() -> None:
 
 def test_a_hundred_solar_dryers_keep_their_books() -> None:
     """Water and heat close; a larger collector leaves the product no wetter."""
-    x = RANDOM.uniform(size=(100, 8))
+    x = np.random.default_rng(14).uniform(size=(100, 8))
 
     @jax.jit
     @jax.vmap
