@@ -165,7 +165,7 @@ green = d.kiln_air(0.6)
 
 
 (sunny,) = (unit.values for unit in gr.alone("drying.solar_dryer").solve().units.values())
-spread = {net: float(d.drying_flux_penman(net, 2.0, 304.0, 0.4)) * 12 * 3600.0 for net in (0.0, 350.0)}
+spread = {net: float(d.drying_flux_penman(net, 2.0, 306.15, 0.4)) * 12 * 3600.0 for net in (0.0, 350.0)}
 
 
 def vial(shelf, pressure):

@@ -120,10 +120,10 @@ def test_the_sun_of_a_dryer_is_that_of_its_collector() -> None:
     """
     made = SolarDryer(10.0, 0.03, 120.0, FRUIT, intervals=16).operate(feed=slices(), gas=outside()).figures
     noon = gr.drying.solar_collector(900.0, 10.0, 0.2022, 304.0, 304.0, specific_heat_capacity=1018.0)
-    assert float(made.collector_efficiency) == pytest.approx(float(noon.heat_removal_factor) * 0.8, rel=3e-3)
+    assert float(made.solar_efficiency) == pytest.approx(float(noon.heat_removal_factor) * 0.8, rel=3e-3)
     assert float(made.temperature_air_highest) == pytest.approx(float(noon.temperature_outlet), abs=0.2)
     sunshine = 10.0 * 900.0 * 2.0 / np.pi * 0.5
-    assert float(made.heat_duty) == pytest.approx(float(made.collector_efficiency) * sunshine, rel=1e-9)
+    assert float(made.heat_duty) == pytest.approx(float(made.solar_efficiency) * sunshine, rel=1e-9)
     assert 0.05 < float(made.drying_efficiency) < 0.35
 
 

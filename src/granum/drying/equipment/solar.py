@@ -57,7 +57,7 @@ class SolarFigures(NamedTuple):
     dry_solid_mass: Mass
     superficial_velocity: Speed
     temperature_air_highest: Temperature
-    collector_efficiency: Ratio
+    solar_efficiency: Ratio
     drying_efficiency: Ratio
     evaporation_rate: SignedMassFlow
     moisture_dry_basis: MoistureDryBasis
@@ -186,7 +186,7 @@ class SolarDryer(LayerDryer):
             dry_solid_mass=whole.solid_holdup,
             superficial_velocity=blown.gas_volume_flow / area,
             temperature_air_highest=hottest,
-            collector_efficiency=safe_divide(outlets.heat_duty, sunshine),
+            solar_efficiency=safe_divide(outlets.heat_duty, sunshine),
             drying_efficiency=safe_divide(jnp.maximum(whole.evaporation_rate, 0.0) * latent, sunshine),
             evaporation_rate=whole.evaporation_rate,
             moisture_dry_basis=whole.moisture_dry_basis,

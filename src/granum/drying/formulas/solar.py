@@ -44,7 +44,7 @@ class SolarHeat(NamedTuple):
     heat_duty: Power
     temperature_outlet: Temperature
     heat_removal_factor: Ratio
-    collector_efficiency: Ratio
+    solar_efficiency: Ratio
 
 
 @formula(
