@@ -56,6 +56,7 @@ def test_the_compaction_curve_is_recovered():
     assert limit == pytest.approx(at * 1000.0 / (at * 1000.0 + SOLID), rel=2e-3)
 
 
+@pytest.mark.long
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """Of 200 repetitions with scatter of the density, 93 to 97 in a hundred hold the true limit."""
     truth, rng, inside = 0.42 * 1000.0 / (0.42 * 1000.0 + SOLID), np.random.default_rng(8), 0

@@ -59,6 +59,7 @@ def suction_readings(rng, scatter=0.06):
     return exact * (1.0 + scatter * rng.standard_normal(exact.size))
 
 
+@pytest.mark.long
 def test_suction_intervals_hold_the_truth_as_often_as_they_say():
     """Of 200 repetitions with 6 % of scatter, 93 to 97 in a hundred hold the truth."""
     rng = np.random.default_rng(1)
@@ -187,6 +188,7 @@ def fouled(rng=None, scatter=2e-3):
 STATE: dict[str, Any] = {"area": 13.8e-4, "pressure_drop": 2e5, "dynamic_viscosity": 1.002e-3}
 
 
+@pytest.mark.long
 def test_fouling_intervals_hold_the_truth_as_often_as_they_say():
     """Of 200 repetitions with scatter of t/V, 93 to 97 in a hundred hold the truth."""
     rng = np.random.default_rng(4)

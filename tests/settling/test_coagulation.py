@@ -45,6 +45,7 @@ def test_both_laws_share_their_three_figures():
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("law", sorted(SHAPES))
 def test_intervals_hold_the_truth_as_often_as_they_say(law):
     """Of 200 repetitions with known scatter, 93 to 97 in a hundred hold the true best dose."""
