@@ -162,6 +162,12 @@ def on_files(files_: Any, config: Any) -> Any:
     return files_
 
 
+def on_post_page(output: str, page: Any, **_more: Any) -> str:
+    """A page in French says so, to whoever reads it aloud."""
+    french = page.file.src_uri.startswith(("fr/", FOLDERS["fr"]))
+    return output.replace('<html lang="en"', '<html lang="fr"', 1) if french else output
+
+
 def on_page_markdown(markdown: str, page: Any, **_more: Any) -> str:
     """Replace ``[[word name …]]`` on a line of its own; in a chapter of the handbook also what it states."""
     place = page.file.src_uri
