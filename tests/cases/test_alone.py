@@ -105,6 +105,22 @@ def test_what_is_no_word_of_it_is_told(words: dict[str, str], said: str) -> None
     assert said in problem.value.message
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_another_law_takes_none_of_the_parameters_of_the_example(turned: bool) -> None:
+    """In whatever order law and parameters are said."""
+    said = {
+        "feed.sizes.law": "log_normal",
+        "feed.sizes.median_diameter": "15 um",
+        "feed.sizes.geometric_standard_deviation": "2.9",
+    }
+    words = dict(reversed(said.items())) if turned else said
+    case = tomllib.loads(case_text("cyclones.gas_cyclone", words))
+    sizes = {name.rpartition(".")[2]: value for name, value in said.items()}
+    assert case["feeds"]["feed"]["sizes"] == sizes
+    kept = case_text("cyclones.gas_cyclone", {"feed.sizes.law": "rosin_rammler"})
+    assert tomllib.loads(kept)["feeds"] == tomllib.loads(case_text("cyclones.gas_cyclone"))["feeds"]
+
+
 def test_a_formula_is_no_equipment() -> None:
     with pytest.raises(GranumError, match="is a formula, not equipment"):
         alone("particles.reynolds_number")

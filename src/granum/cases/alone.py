@@ -71,7 +71,8 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
     found = {"title": thing.card.title, "mixture": mixture, "feeds": feeds, "units": {name: own}}
     before = _present(mixture)
     described: dict[str, Any] = {}
-    for word, value in (words or {}).items():
+    for word in sorted(words or {}, key=_laws_first):
+        value = (words or {})[word]
         if word.partition(".")[0] in OWN and word.count(".") > 1:
             put(described, word, _read(word, value))
         else:
@@ -82,6 +83,11 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
         feeds[port] = {"to": f"{name}.{port}"} | feed
     found["units"][name] = {"model": key} | own
     return found | described
+
+
+def _laws_first(word: str) -> tuple[bool, int]:
+    """A law is chosen before its parameters are told, the outer one before the inner."""
+    return not word.endswith(".law"), word.count(".")
 
 
 def _read(word: str, value: Any) -> Any:

@@ -10,9 +10,16 @@ from typing import Any
 def put(table: dict[str, Any], name: str, value: Any) -> None:
     """Sets ``a.b`` inside nested tables; a law that has parameters as well is ``a = {law = …}``, and another
     law takes none of them.
+
+    >>> sizes = {"law": "rosin_rammler", "size_modulus": "25 um"}
+    >>> put(sizes, "law", "log_normal")
+    >>> sizes
+    {'law': 'log_normal'}
     """
     head, dot, rest = name.partition(".")
     if not dot:
+        if head == "law" and table.get("law") != value:
+            table.clear()
         there = table.get(head)
         if isinstance(there, dict) and isinstance(value, str) and there.get("law", value) == value:
             there["law"] = value
