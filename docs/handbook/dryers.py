@@ -332,3 +332,18 @@ def figure_flash():
             break
         add_line(drawing, place, moist[:, k], f"{1e6 * flash_sizes[k]:.0f} µm", color=color, dash=dash)
     return drawing
+
+
+# ---- kiln and sun
+def charge(thickness):
+    """Green red oak in a kiln by T4-D2, mm."""
+    (unit,) = gr.alone("drying.wood_kiln", thickness=f"{thickness} mm").solve().units.values()
+    return unit.values
+
+
+kiln = {mm: charge(mm) for mm in (28.6, 57.2)}
+green = d.kiln_air(0.6)
+
+
+(sunny,) = (unit.values for unit in gr.alone("drying.solar_dryer").solve().units.values())
+spread = {net: float(d.drying_flux_penman(net, 2.0, 306.15, 0.4)) * 12 * 3600.0 for net in (0.0, 350.0)}

@@ -154,20 +154,6 @@ cubes = {mm: float(d.drying_time_diffusion(0.1 ** (1 / 3), f"{mm / 2} mm", "3e-1
 drop = float(d.drying_time_diffusion(0.1, "50 um", "3e-10 m^2/s", shape="sphere"))
 
 
-def charge(thickness):
-    """Green red oak in a kiln by T4-D2, mm."""
-    (unit,) = gr.alone("drying.wood_kiln", thickness=f"{thickness} mm").solve().units.values()
-    return unit.values
-
-
-kiln = {mm: charge(mm) for mm in (28.6, 57.2)}
-green = d.kiln_air(0.6)
-
-
-(sunny,) = (unit.values for unit in gr.alone("drying.solar_dryer").solve().units.values())
-spread = {net: float(d.drying_flux_penman(net, 2.0, 306.15, 0.4)) * 12 * 3600.0 for net in (0.0, 350.0)}
-
-
 def vial(shelf, pressure):
     """A fill of 7 mm in primary drying, at °C and Pa, in the vial of Shivkumar and others."""
     per_volume = float(d.frozen_height("1 mL", "3.14 cm^2", "0.05 g/mL"))
