@@ -13,7 +13,7 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.cases.alone import alone
-from granum.core.errors import CaseError
+from granum.core.errors import CaseError, InputError
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer,
     AntisolventCrystallizer,
@@ -202,6 +202,11 @@ def test_it_is_the_batch_of_its_own_program():
     assert made.mean_diameter_mass == pytest.approx(alone_.mean_diameter, rel=1e-6)
     assert made.nuclei_mass_fraction == pytest.approx(alone_.nuclei_mass_fraction, rel=1e-6)
     assert made.yield_fraction == pytest.approx(alone_.yield_fraction, rel=1e-6)
+
+
+def test_a_batch_without_time_is_refused():
+    with pytest.raises(InputError, match="duration"):
+        batch_of(duration=0.0)
 
 
 def test_a_slow_beginning_keeps_the_supersaturation_and_the_nuclei_down():

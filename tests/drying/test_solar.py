@@ -186,3 +186,9 @@ def test_steam_is_refused_and_scorched_product_is_told() -> None:
     hot = SolarDryer(40.0, 0.03, 120.0, FRUIT, temperature_limit=333.15)
     checks = {c.name: c.ok for c in hot.operate(feed=slices(), gas=outside()).checks}
     assert not checks["product temperature over its limit"]
+
+
+def test_no_chimney_draws_what_is_colder_than_the_air_outside() -> None:
+    (unit,) = gr.alone("drying.solar_dryer", area_collector="1 m2").solve().units.values()
+    assert float(unit.values.temperature_exhaust) < 273.15 + 33.0
+    assert float(unit.values.height_chimney) == 0.0

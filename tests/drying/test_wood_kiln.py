@@ -168,3 +168,11 @@ def test_what_the_schedule_does_not_reach_is_told_and_little_air_fails() -> None
         alone(WoodKiln(0.0254, 0.03), feed=boards(0.6), gas=air())
     made = WoodKiln(0.0254, 0.08).operate(feed=boards(0.6), gas=air(0.02))
     assert not {c.name: c.ok for c in made.checks}["fresh air over what the schedule asks for"]
+
+
+def test_boards_that_are_dry_already_ask_for_no_air_and_say_so() -> None:
+    (unit,) = gr.alone("drying.wood_kiln", moisture_outlet=0.9).solve().units.values()
+    assert float(unit.values.gas_flow_vented) == 0.0
+    assert float(unit.values.drying_time) == 0.0
+    failed = {check.name for check in unit.checks if not check.ok}
+    assert failed == {"drying time of a charge", "moisture of the product against the specification"}

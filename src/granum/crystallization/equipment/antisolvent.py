@@ -5,7 +5,7 @@ out): continuous, and in batches.
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -33,6 +33,7 @@ from granum.core.kinds import (
     Time,
     Velocity,
     Volume,
+    Within,
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.batch import (
@@ -331,6 +332,7 @@ class AntisolventBatchCrystallizer(CycledVessel):
     """
 
     temperature: Temperature
+    duration: Annotated[Time, Within(1.0, math.inf)] = eqx.field(kw_only=True)
     addition_exponent: PositiveNumber = eqx.field(kw_only=True, default=1.0)
     second_solvent: str = eqx.field(kw_only=True, static=True, default="")
 

@@ -79,7 +79,8 @@ class SolarDryer(LayerDryer):
     outside keeps one state. At night, and in what warms up and cools down with the sun, nothing happens. The
     flows of feed and air are means over day and night: the air passes in sunshine alone, so that it is then
     the more. It comes to the trays at the temperature that the collector gives it, by Hottel and Whillier.
-    ``height_chimney`` is that which would draw the air at noon without a fan, through ``pressure_drop``.
+    ``height_chimney`` is that which would draw the air without a fan, through ``pressure_drop``, with the
+    exhaust at its mean temperature; zero where that is colder than the air outside, and none would draw.
     """
 
     area_collector: Area
@@ -176,7 +177,7 @@ class SolarDryer(LayerDryer):
         blown = self.in_sunshine(gas)
         sunshine = self.area_collector * self.irradiance * 2.0 / np.pi * self.day_length / DAY
         latent = HumidMixture(gas.mixture).heat_of_vaporization(gas.temperature)
-        # the exhaust is what the chimney holds; at noon it is no colder than the mean
+        # the exhaust is what the chimney holds; where that is colder than the air outside, none draws
         per_height = chimney_draft.function(
             1.0, outlets.exhaust.temperature, gas.temperature, pressure=gas.pressure
         ).pressure_drop
@@ -194,7 +195,7 @@ class SolarDryer(LayerDryer):
             temperature_product_highest=whole.temperature_product_highest,
             temperature_exhaust=whole.temperature_exhaust,
             relative_humidity=whole.relative_humidity,
-            height_chimney=safe_divide(self.pressure_drop, per_height),
+            height_chimney=safe_divide(self.pressure_drop, jnp.maximum(per_height, 0.0)),
             heat_duty=outlets.heat_duty,
             energy_per_water=safe_divide(outlets.heat_duty, jnp.maximum(whole.evaporation_rate, 0.0)),
         )

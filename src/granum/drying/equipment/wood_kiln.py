@@ -220,7 +220,8 @@ class WoodKiln(Unit):
             heat_transfer_coefficient=inside.heat_transfer,
             humidity_ratio=self.mean(inside, humidity),
             temperature_product=outlets.product.temperature,
-            gas_flow_vented=feed.solid_flow * per_dry * (1.0 + fresh),
+            # of what lost less than rounding nothing has to be carried away
+            gas_flow_vented=jnp.where(inside.time > 0.0, feed.solid_flow * per_dry * (1.0 + fresh), 0.0),
             heat_duty=duty,
             energy_per_water=safe_divide(duty, water),
         )
