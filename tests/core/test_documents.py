@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import inspect
 import re
-import tomllib._parser as parser  # type: ignore[import-not-found]
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -15,7 +14,9 @@ from granum.core.i18n import catalog, language
 
 SAID = {
     text.encode().decode("unicode_escape")
-    for text in re.findall(r'suffixed_err\([^"]*"([^"{}]+)"', inspect.getsource(parser))
+    for text in re.findall(
+        r'TOMLDecodeError\(\s*"([^"{}]+)"', (files("tomli") / "_parser.py").read_text(encoding="utf-8")
+    )
 }
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from granum.core import units
+from granum.core import unit_names, units
 from granum.core.errors import InputError, UnitError
 from granum.core.i18n import language
 from granum.core.kinds import KINDS
@@ -246,3 +246,17 @@ def test_numbers_as_people_print_them() -> None:
 )
 def test_how_books_write_units(kind: str, text: str, expected: float) -> None:
     assert units.read_quantity(text, KINDS[kind]) == pytest.approx(expected, rel=1e-4)
+
+
+def test_what_is_printed_takes_no_pint(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pint takes as long to get ready as a line to solve."""
+
+    def refused(*asked: str) -> None:
+        raise AssertionError(asked)
+
+    for module, name in ((units, "affine_by_pint"), (units, "angles_by_pint"), (unit_names, "registry")):
+        monkeypatch.setattr(module, name, refused)
+    unit_names.same_dimension.cache_clear()
+    for kind in KINDS.values():
+        for unit in (*kind.units, *units.FIELD.get(kind.unit, ())):
+            assert np.isfinite(units.from_si(1.0, unit, kind))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import logging
 import shlex
-import tomllib
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import tomli
 from fastapi import Body, FastAPI, File, Form, Request, UploadFile
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse, Response
@@ -560,7 +560,7 @@ def _trial(key: str) -> dict[str, Any] | None:
                 table = place.parent / Path(data).name
                 values = dict(word.split("=", 1) for word in conditions)
                 laws = {
-                    name: json.dumps(tomllib.loads(f"v = {text}")["v"])
+                    name: json.dumps(tomli.loads(f"v = {text}")["v"])
                     for name, text in values.items()
                     if text.startswith("{")
                 }

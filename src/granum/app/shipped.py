@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+
+import tomli
 
 import granum
 from granum.core.i18n import _
@@ -32,13 +33,13 @@ def examples() -> dict[str, Path]:
 
 @cache
 def _told(name: str) -> tuple[str, str]:
-    raw = tomllib.loads(examples()[name].read_text(encoding="utf-8"))
+    raw = tomli.loads(examples()[name].read_text(encoding="utf-8"))
     return str(raw.get("title", "")), str(raw.get("description", ""))
 
 
 def domain_of_line(name: str) -> str:
     """The domain of all machines of an example, mixers and splitters aside; empty where there are several."""
-    units = tomllib.loads(examples()[name].read_text(encoding="utf-8"))["units"].values()
+    units = tomli.loads(examples()[name].read_text(encoding="utf-8"))["units"].values()
     found = {str(unit.get("model", "")).partition(".")[0] for unit in units} - {"streams"}
     return found.pop() if len(found) == 1 else ""
 

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import copy
 import json
-import tomllib
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 from typing import Any
+
+import tomli
 
 from granum.cases.reading import read_text
 from granum.cases.schema import OWN, FeedTable
@@ -32,7 +33,7 @@ ONE_WAY, OTHER_WAY = ("mass_flow", "solids_mass_fraction"), ("solid_flow", "liqu
 @cache
 def _written(domain: str) -> dict[str, Any]:
     place = files("granum") / "cases" / "units" / f"{domain}.toml"
-    return tomllib.loads(place.read_text(encoding="utf-8")) if place.is_file() else {}
+    return tomli.loads(place.read_text(encoding="utf-8")) if place.is_file() else {}
 
 
 def ordinary(key: str) -> dict[str, Any]:

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import json
 import re
-import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
+import tomli
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
@@ -51,8 +51,8 @@ def _path_of(lines: list[str], i: int, line: str) -> tuple[str, ...]:
     if not _HEAD.match(line):
         return ()
     try:
-        inner: Any = tomllib.loads(line)
-        tomllib.loads("\n".join(lines[:i]))
+        inner: Any = tomli.loads(line)
+        tomli.loads("\n".join(lines[:i]))
     except ValueError:
         return ()
     path = []

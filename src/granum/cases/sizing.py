@@ -6,7 +6,6 @@ The file ``sizes.toml`` says which setting is sought for which figure, or why a 
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
@@ -16,6 +15,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+import tomli
 
 from granum.cases.alone import as_words, case_text
 from granum.cases.reading import read_text
@@ -49,7 +49,7 @@ class Duty(NamedTuple):
 
 @cache
 def _declared() -> dict[str, dict[str, str]]:
-    return tomllib.loads((files("granum") / "cases" / "sizes.toml").read_text(encoding="utf-8"))
+    return tomli.loads((files("granum") / "cases" / "sizes.toml").read_text(encoding="utf-8"))
 
 
 def duty(key: str) -> Duty:

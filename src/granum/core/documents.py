@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-import tomllib
 from typing import Any
+
+import tomli
 
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -23,8 +24,8 @@ def read_toml(text: str) -> dict[str, Any]:
     if _LONG_KEY.search(text):  # the parser takes the square of their length
         raise InputError(_("tables stand in tables deeper than {count}").format(count=DEEPEST))
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
+        return tomli.loads(text)
+    except tomli.TOMLDecodeError as problem:
         raise InputError(_worded(str(problem))) from None
     except RecursionError:
         raise InputError(_("tables stand in tables deeper than {count}").format(count=DEEPEST)) from None

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Any
+
+import tomli
 
 from granum.core.errors import unknown_name
 from granum.core.i18n import _, catalog, current_language, typographic
@@ -51,7 +52,7 @@ def glossary() -> dict[str, Term]:
     for path in sorted((files("granum") / "core" / "terms").iterdir(), key=lambda p: p.name):
         if not path.name.endswith(".toml"):
             continue
-        for name, row in tomllib.loads(path.read_text(encoding="utf-8")).items():
+        for name, row in tomli.loads(path.read_text(encoding="utf-8")).items():
             if name in terms:
                 duplicates.append(f"{name} (again in {path.name})")
                 continue
@@ -93,7 +94,7 @@ def endings() -> dict[str, dict[str, Any]]:
     """Authors by the words of keys, and qualifiers in both languages, read from
     ``granum/core/endings.toml``.
     """
-    return tomllib.loads((files("granum") / "core" / "endings.toml").read_text(encoding="utf-8"))
+    return tomli.loads((files("granum") / "core" / "endings.toml").read_text(encoding="utf-8"))
 
 
 def ending(rest: str) -> str:

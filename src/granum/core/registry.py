@@ -10,6 +10,7 @@ import pkgutil
 import sys
 from collections.abc import Callable, Iterable
 from functools import cache
+from importlib.util import find_spec
 from typing import Any
 
 from granum.core.cards import domain_of
@@ -201,6 +202,8 @@ def domain_names(package: str, *offered: str) -> tuple[Callable[[str], Any], Cal
         if name.startswith("__"):
             raise AttributeError(name)
         entry = _attributes(domain).get(name)
+        if entry is None and name not in offered and find_spec(f"{package}.{name}") is not None:
+            return importlib.import_module(f"{package}.{name}")  # a module needs none of the others
         found = public_names(domain) if entry is None else vars(importlib.import_module(entry.module))
         if name not in found:
             close = nearest(name, found)

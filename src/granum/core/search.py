@@ -7,12 +7,13 @@ from __future__ import annotations
 import bisect
 import math
 import re
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Any
+
+import tomli
 
 from granum.core.glossary import Term, glossary, quantity_in, term
 from granum.core.index import Entry, entries
@@ -66,7 +67,7 @@ def document(kind: str, key: str, said: Iterable[tuple[float, str]], worth: floa
 def _synonyms() -> tuple[list[list[tuple[str, ...]]], dict[str, list[str]]]:
     """Groups of phrases that mean the same, and further names of single things."""
     text = (files("granum") / "core" / "synonyms.toml").read_text(encoding="utf-8")
-    raw = tomllib.loads(text)
+    raw = tomli.loads(text)
     return [[tokens(phrase) for phrase in group] for group in raw["same"]], raw["names"]
 
 

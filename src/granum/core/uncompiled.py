@@ -17,6 +17,7 @@ import jax
 import numpy as np
 from jax.extend.core import ClosedJaxpr
 
+from granum.core import lapack
 from granum.core.operations import Step, of_numpy, operation
 from granum.core.traces import Operation, Reader, Trace
 
@@ -191,6 +192,8 @@ class _Loop:
         _taken.steps += CALL
         with jax.ensure_compile_time_eval():
             if self._compiled is None:
+                if self._kept:
+                    lapack.at_hand()
                 self._compiled = jax.jit(self._function(values), **self._options)
             found = [np.asarray(x)[()] for x in self._compiled(*values)]
         return _alone(found)

@@ -74,9 +74,10 @@ def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
     """
     if kind.unit in ("K", "delta_degC"):
         unit = DEGREES.get(unit.strip(), unit)
+    own = rows().get((unit.strip(), kind.unit))
     if kind.unit == "delta_degC":
-        return _affine(unit, "K")[0], 0.0
-    if kind.name == "relative amount" and fits(unit, "kg"):
+        return (own.factor if own else _affine(unit, "K")[0]), 0.0
+    if kind.name == "relative amount" and not own and fits(unit, "kg"):
         return _affine(unit, "kg")
     factor, offset = _affine(unit, kind.unit)
     if kind.unit == "radian/s" and not _angles(unit):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from html import escape
 from typing import Any, NamedTuple, Protocol
 
-import networkx as nx
+import rustworkx as rx
 
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -47,18 +47,24 @@ class Loose(NamedTuple):
 
 def _columns(line: Drawable) -> dict[str, int]:
     torn = {name for block in line.blocks for name in block.tears}
-    graph = nx.DiGraph()
+    place = {unit: i for i, unit in enumerate(line.order)}
+    graph = rx.PyDiGraph()
     graph.add_nodes_from(line.order)
-    graph.add_edges_from(
-        (k.source_unit, k.target_unit) for k in line.links if k.origin and k.target and k.name not in torn
+    graph.add_edges_from_no_data(
+        [
+            (place[k.source_unit], place[k.target_unit])
+            for k in line.links
+            if k.origin and k.target and k.name not in torn
+        ]
     )
+    onward = rx.topological_sort(graph)
     columns: dict[str, int] = {}
-    for unit in nx.topological_sort(graph):
-        columns[unit] = max((columns[p] + 1 for p in graph.predecessors(unit)), default=0)
+    for i in onward:
+        columns[graph[i]] = max((columns[unit] + 1 for unit in graph.predecessors(i)), default=0)
     # pull sources such as an air heater next to what they serve
-    for unit in reversed(list(nx.topological_sort(graph))):
-        later = [columns[s] for s in graph.successors(unit)]
-        if later and not list(graph.predecessors(unit)):
+    for i in reversed(onward):
+        unit, later = graph[i], [columns[unit] for unit in graph.successors(i)]
+        if later and not graph.in_degree(i):
             columns[unit] = max(columns[unit], min(later) - 1)
     return columns
 

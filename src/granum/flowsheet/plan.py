@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-import networkx as nx
+import rustworkx as rx
 
 
 class Link(NamedTuple):
@@ -46,30 +46,44 @@ def plan(units: tuple[str, ...], links: tuple[Link, ...]) -> tuple[Block, ...]:
     Inside a loop the order with the fewest torn streams is taken among the declared order and depth-first
     orders from each unit, the declared order winning ties so that the author of a case decides.
     """
-    graph = nx.MultiDiGraph()
-    graph.add_nodes_from(units)
-    for k in links:
-        if k.origin and k.target:
-            graph.add_edge(k.source_unit, k.target_unit, key=k.name)
-    groups = nx.condensation(graph, scc=list(nx.strongly_connected_components(graph)))
     rank = {unit: i for i, unit in enumerate(units)}
-    first = {g: min(rank[u] for u in groups.nodes[g]["members"]) for g in groups}
+    joined = [(k.source_unit, k.target_unit) for k in links if k.origin and k.target]
+    graph = rx.PyDiGraph()
+    graph.add_nodes_from(units)
+    graph.add_edges_from_no_data([(rank[a], rank[b]) for a, b in joined])
+    groups = rx.digraph_condensation(graph)
+
+    def declared_first(members: list[str]) -> str:
+        return f"{min(map(rank.__getitem__, members)):09}"
+
     blocks = []
-    for group in nx.lexicographical_topological_sort(groups, key=first.__getitem__):
-        members = sorted(groups.nodes[group]["members"], key=rank.__getitem__)
+    for group in rx.lexicographical_topological_sort(groups, declared_first):
+        members = sorted(group, key=rank.__getitem__)
         inner = [
             k
             for k in links
             if k.source_unit in members and k.target_unit in members and k.origin and k.target
         ]
-        orders = [members] + [_depth_first(graph.subgraph(members), start) for start in members]
+        orders = [members] + [_depth_first(inner, start) for start in members]
         order = min(orders, key=lambda o: len(_backward(o, inner)))
         blocks.append(Block(tuple(order), tuple(_backward(order, inner))))
     return tuple(blocks)
 
 
-def _depth_first(graph: nx.MultiDiGraph, start: str) -> list[str]:
-    return list(reversed(list(nx.dfs_postorder_nodes(graph, start))))
+def _depth_first(links: list[Link], start: str) -> list[str]:
+    """Units that can be reached, each before what is found beyond it only."""
+    finished: list[str] = []
+    seen: set[str] = set()
+
+    def visit(unit: str) -> None:
+        seen.add(unit)
+        for k in links:
+            if k.source_unit == unit and k.target_unit not in seen:
+                visit(k.target_unit)
+        finished.append(unit)
+
+    visit(start)
+    return finished[::-1]
 
 
 def _backward(order: list[str], links: list[Link]) -> list[str]:

@@ -12,7 +12,6 @@ useful solid::
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -23,6 +22,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+import tomli
 import tomlkit
 
 from granum.core.documents import read_toml
@@ -197,7 +197,7 @@ def _shipped() -> Entries:
     found: Entries = {sort: {} for sort in _SORTS}
     for path in sorted((files("granum") / "materials" / "data").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".toml"):
-            _merge(found, tomllib.loads(path.read_text(encoding="utf-8")), path.name)
+            _merge(found, tomli.loads(path.read_text(encoding="utf-8")), path.name)
     return found
 
 

@@ -19,9 +19,9 @@ from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import AIR_WATER, AbstractPair
 from granum.humid_gas.relations import dew_point
-from granum.materials import gas_vapor
 from granum.materials.fluids import Fluid
 from granum.materials.library import Library
+from granum.materials.pairs import gas_vapor
 from granum.numerics import find_root
 from granum.streams.mixture import AIR, STEAM, Mixture, carrier_of
 from granum.streams.stream import Stream

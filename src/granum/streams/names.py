@@ -4,9 +4,10 @@ that of the reader.
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
 from importlib.resources import files
+
+import tomli
 
 from granum.core.i18n import _, current_language
 
@@ -18,7 +19,7 @@ PORTS = {"heavy": "heavy liquid", "light": "light liquid"}
 def french() -> dict[str, str]:
     """French for the names of the shipped examples."""
     place = files("granum.streams") / "names_fr.toml"
-    return tomllib.loads(place.read_text(encoding="utf-8"))
+    return tomli.loads(place.read_text(encoding="utf-8"))
 
 
 def pretty(name: str) -> str:

@@ -5,10 +5,11 @@ A new exercise is a table in one TOML file of this folder; CONTRIBUTING.md says 
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
 from importlib.resources import files
 from typing import Any
+
+import tomli
 
 from granum.app.exercises.numbers import Numbers, filled_text
 from granum.core import registry
@@ -41,7 +42,7 @@ def declared() -> dict[str, list[dict[str, Any]]]:
     found: dict[str, list[dict[str, Any]]] = {"exercise": [], "quiz": [], "notes": []}
     for path in sorted((files("granum") / "app" / "exercises").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".toml"):
-            for sort, rows in tomllib.loads(path.read_text(encoding="utf-8")).items():
+            for sort, rows in tomli.loads(path.read_text(encoding="utf-8")).items():
                 found[sort] += rows
     return found
 

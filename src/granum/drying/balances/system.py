@@ -217,29 +217,38 @@ class System:
         """Knowns of which one is too many, and quantities of which one more must be given (Dulmage and
         Mendelsohn's decomposition).
         """
-        import networkx as nx
+        import rustworkx as rx
 
         equations = [(i, k) for i, r in enumerate(self.relations) if not r.extra for k in range(r.fixes)]
         unknown = [name for name in self.variables if name not in given]
-        graph = nx.Graph()
-        graph.add_nodes_from([*equations, *unknown])
-        graph.add_edges_from(
-            (e, name) for e in equations for name in self.relations[e[0]].variables if name not in given
-        )
-        match = nx.bipartite.maximum_matching(graph, top_nodes=equations)
+        place = {node: i for i, node in enumerate([*equations, *unknown])}
+        held = [
+            (place[e], place[name])
+            for e in equations
+            for name in self.relations[e[0]].variables
+            if name not in given
+        ]
+        graph = rx.PyGraph()
+        graph.add_nodes_from(place)
+        graph.add_edges_from_no_data(held)
+        pairs = [sorted(pair) for pair in rx.max_weight_matching(graph, max_cardinality=True)]
+        matched = {i for pair in pairs for i in pair}
         # from an equation to what it holds, and from a quantity to the equation that gives it
-        order = nx.DiGraph()
-        order.add_nodes_from(graph)
-        order.add_edges_from((e, name) for e in equations for name in graph[e])
-        order.add_edges_from((name, match[name]) for name in unknown if name in match)
-        over = {e for e in equations if e not in match}
-        tied = over.union(*(nx.descendants(order, e) for e in over))
+        order = rx.PyDiGraph()
+        order.add_nodes_from(place)
+        order.add_edges_from_no_data(held + [(name, equation) for equation, name in pairs])
+        over = {place[e] for e in equations} - matched
+        tied = over.union(*(rx.descendants(order, e) for e in over))
         redundant = {
-            name for e in equations if e in tied for name in self.relations[e[0]].variables if name in given
+            name
+            for e in equations
+            if place[e] in tied
+            for name in self.relations[e[0]].variables
+            if name in given
         }
-        loose = {name for name in unknown if name not in match}
-        open_ = loose.union(*(nx.ancestors(order, name) for name in loose))
-        return sorted(redundant), [name for name in unknown if name in open_]
+        loose = {place[name] for name in unknown} - matched
+        open_ = loose.union(*(rx.ancestors(order, name) for name in loose))
+        return sorted(redundant), [name for name in unknown if place[name] in open_]
 
     def _complaint(self, given: frozenset[str], redundant: list[str], missing: list[str]) -> InputError:
         own, zero = sorted(given - set(self.free)), set(self.free) & given

@@ -4,9 +4,10 @@ parameters.
 
 from __future__ import annotations
 
-import tomllib
 from importlib.resources import files
 from typing import Any, ClassVar
+
+import tomli
 
 from granum.core import law
 from granum.core.constants import ZERO_CELSIUS
@@ -55,7 +56,7 @@ def _declare(name: str, row: dict[str, Any]) -> type:
 
 PRODUCTS: dict[str, type] = {
     name: _declare(name, row)
-    for name, row in tomllib.loads(
+    for name, row in tomli.loads(
         (files("granum") / "drying" / "data" / "isotherms.toml").read_text(encoding="utf-8")
     ).items()
 }
