@@ -49,6 +49,29 @@ def test_a_flow_said_another_way_replaces_the_first() -> None:
     assert run.streams["feed"].solid_flow * 3600 == pytest.approx(300.0)
 
 
+@pytest.mark.parametrize(
+    ("said", "solid", "liquid"),
+    [
+        ({"mass_flow": "6 t/h"}, 120.0, 5880.0),  # the example: 3 t/h with 2 % of solid
+        ({"solids_mass_fraction": "5 %"}, 150.0, 2850.0),
+        ({"solid_flow": "150 kg/h"}, 150.0, 2940.0),
+        ({"liquid_flow": "1 t/h"}, 60.0, 1000.0),
+    ],
+)
+def test_a_part_of_the_flow_leaves_the_rest_of_the_example(
+    said: dict[str, str], solid: float, liquid: float
+) -> None:
+    feed = gr.alone("centrifuges.disc_stack", feed=said).sheet.feeds["feed"]
+    assert feed.solid_flow * 3600 == pytest.approx(solid)
+    assert feed.liquid_flow * 3600 == pytest.approx(liquid)
+
+
+def test_a_total_flow_keeps_the_share_of_solid_of_the_example() -> None:
+    feed = tables("comminution.ball_mill", {"feed.mass_flow": "20 t/h"})["feeds"]["feed"]
+    assert feed["solids_mass_fraction"] == "66.66666667 %"
+    assert tables("settling.lamella", {"feed.mass_flow": ""})["feeds"]["feed"]["solid_flow"] == "100 kg/h"
+
+
 def test_shares_of_substances_that_are_gone_go_with_them() -> None:
     found = tables(DRUM, {"mixture.liquids": "water"})
     assert all("liquid" not in feed for port, feed in found["feeds"].items() if port == "feed")

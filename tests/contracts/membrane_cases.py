@@ -1,4 +1,4 @@
-"""Membrane plants, carbon beds, flotation and belt press with ordinary waters, for the contracts."""
+"""Membrane plants, carbon beds, flotation and presses with ordinary waters, for the contracts."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from granum.filtration.adsorption import FreundlichIsotherm
 from granum.filtration.equipment.belt_press import BeltPress
 from granum.filtration.equipment.carbon import GasCarbonBed, LiquidCarbonBed
 from granum.filtration.equipment.membranes import ReverseOsmosis, Ultrafiltration
+from granum.filtration.equipment.screw_press import ScrewPress
 from granum.settling.equipment.flotation import DissolvedAirFlotation
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
@@ -128,6 +129,25 @@ def membranes(classes: int) -> dict[str, Case]:
                 10.0 ** (-10.0 + 3.0 * u[0]),
                 compaction_exponent=0.3 * u[1],
                 solids_recovery=0.8 + 0.2 * u[2],
+            ),
+        ),
+        "screw press": Case(
+            flocs,
+            lambda m, x: {"feed": _sludge(m, x)["feed"]},
+            lambda f, u: ScrewPress(
+                0.2 + 0.8 * u[0],
+                1.0 + 3.0 * u[1],
+                0.1 + 0.5 * u[2],
+                0.02 + 0.5 * u[3],
+                0.1 + 0.05 * u[4],
+                0.12 + 0.07 * u[5],
+                10.0 ** (4.5 + 2.0 * u[0]),
+                10.0 ** (8.0 + 3.0 * u[1]),
+                0.03 + 0.1 * u[2],
+                0.15 + 0.25 * u[3],
+                10.0 ** (-10.0 + 4.0 * u[4]),
+                compaction_exponent=0.3 * u[5],
+                solids_recovery=0.5 + 0.5 * u[0],
             ),
         ),
         "ultrafiltration": Case(

@@ -43,6 +43,7 @@ QUICK = (
     "layers",
     "flotation",
     "belt press",
+    "screw press",
     "gas carbon",
     "liquid carbon",
     "salt pair",

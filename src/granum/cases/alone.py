@@ -17,6 +17,7 @@ from typing import Any
 
 import tomli
 
+from granum.cases.flows import BY_PHASE, BY_TOTAL, in_phases, in_totals
 from granum.cases.reading import read_text
 from granum.cases.schema import OWN, FeedTable
 from granum.cases.tables import as_toml, put
@@ -27,7 +28,6 @@ from granum.core.i18n import _
 from granum.flowsheet.run import Line
 
 PHASES = {"solids": "solid", "liquids": "liquid", "gases": "gas"}
-ONE_WAY, OTHER_WAY = ("mass_flow", "solids_mass_fraction"), ("solid_flow", "liquid_flow")
 
 
 @cache
@@ -117,10 +117,10 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
         if field not in FeedTable.model_fields:
             raise unknown_name(_("Input"), word, [f"{head}.{n}" for n in FeedTable.model_fields], _for(thing))
         feed = feeds.setdefault(head, {})
-        for these, others in ((ONE_WAY, OTHER_WAY), (OTHER_WAY, ONE_WAY)):
-            if field in these:  # the flow said one way is not also said the other
-                for other in others:
-                    feed.pop(other, None)
+        for these, others, said in ((BY_TOTAL, BY_PHASE, in_totals), (BY_PHASE, BY_TOTAL, in_phases)):
+            if field in these and value != "" and any(other in feed for other in others):
+                # the flow of the example said this way, so that what is not said stays
+                feed |= said({other: feed.pop(other) for other in others if other in feed})
         if value == "":
             feed.pop(rest, None)
         else:

@@ -17,6 +17,7 @@ from typing import Any, Concatenate, ParamSpec
 import tomlkit
 
 from granum.cases.alone import tables
+from granum.cases.flows import BY_PHASE, BY_TOTAL, flow_of, in_phases, in_totals, percent
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
 from granum.cases.reading import knowing_own, own_materials, parsed, quantity
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
@@ -264,10 +265,6 @@ def share_of(value: Any, name: str) -> float:
     return quantity(value, "MassFraction", name, "")
 
 
-def percent(share: float) -> str:
-    return f"{100.0 * share:.10g} %"
-
-
 def form_of_feed(case: str, feed: str, form: str) -> str:
     """A feed of solid and liquid written as ``totals`` (mass flow and share of solids) or as flows of its
     ``phases``; the stream is the same.
@@ -275,27 +272,18 @@ def form_of_feed(case: str, feed: str, form: str) -> str:
     table = table_of(table_of(parsed(case, "case"), "feeds"), feed)
     place = ("feeds", feed)
     if form == "totals" and "mass_flow" not in table:
-        solid, liquid = (_flow(table, name) for name in ("solid_flow", "liquid_flow"))
-        total = solid + liquid
-        for name in ("solid_flow", "liquid_flow"):
-            case = without_value(case, place, name)
-        case = with_value(case, place, "mass_flow", f"{3600.0 * total:.10g} kg/h")
-        case = with_value(case, place, "solids_mass_fraction", percent(solid / total if total else 0.0))
+        gone, told = BY_PHASE, in_totals(table)
     elif form == "phases" and "mass_flow" in table:
-        total = _flow(table, "mass_flow")
-        share = share_of(table.get("solids_mass_fraction", 0.0), "solids_mass_fraction")
-        for name in ("mass_flow", "solids_mass_fraction"):
-            case = without_value(case, place, name)
-        case = with_value(case, place, "liquid_flow", f"{3600.0 * total * (1.0 - share):.10g} kg/h")
-        if share:
-            case = with_value(case, place, "solid_flow", f"{3600.0 * total * share:.10g} kg/h")
-    elif form not in ("totals", "phases"):
+        gone, told = BY_TOTAL, in_phases(table)
+    elif form in ("totals", "phases"):
+        gone, told = (), {}
+    else:
         raise InputError(_("A feed is given as 'phases' or 'totals'."), name="form")
+    for name in gone:
+        case = without_value(case, place, name)
+    for name, value in told.items():
+        case = with_value(case, place, name, value)
     return checked(case)
-
-
-def _flow(table: Mapping[str, Any], name: str) -> float:
-    return quantity(table[name], "MassFlow", name, "") if name in table else 0.0
 
 
 @_with_own_known
@@ -359,7 +347,7 @@ def _entering(feeds: Mapping[str, Any]) -> float:
     for table in feeds.values():
         for word in ("mass_flow", "solid_flow", "liquid_flow"):
             try:
-                total += _flow(table, word)
+                total += flow_of(table, word)
             except (GranumError, TypeError):
                 continue
     return total
@@ -373,7 +361,7 @@ def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
     flow = GAS_PER_FEED * (_entering(table_of(found.raw, "feeds")) or 1000.0 / 3600.0)
     moist = table_of(table_of(found.raw, "feeds"), origin)
     if moist:
-        flow = max(flow, GAS_PER_MOISTURE * _flow(moist, "liquid_flow"))
+        flow = max(flow, GAS_PER_MOISTURE * flow_of(moist, "liquid_flow"))
     now = outline(case)
     heats = "temperature_inlet" in table_of(table_of(now.raw, "units"), unit)
     gas = drying_gas(table_of(now.raw, "mixture"), flow, heats)

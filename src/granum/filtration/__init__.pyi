@@ -68,6 +68,11 @@ from granum.filtration.equipment.membranes import (
     ReverseOsmosis as ReverseOsmosis,
     Ultrafiltration as Ultrafiltration,
 )
+from granum.filtration.equipment.screw_press import (
+    Passage as Passage,
+    ScrewFigures as ScrewFigures,
+    ScrewPress as ScrewPress,
+)
 from granum.filtration.formulas.adsorption import (
     adsorption_rate_lodewyckx as adsorption_rate_lodewyckx,
     breakthrough_fraction_bohart_adams as breakthrough_fraction_bohart_adams,
@@ -197,6 +202,9 @@ from granum.filtration.formulas.resistance import (
     cake_resistance_kozeny_carman as cake_resistance_kozeny_carman,
     cake_resistance_power_law as cake_resistance_power_law,
     cake_resistance_threshold as cake_resistance_threshold,
+)
+from granum.filtration.formulas.screw import (
+    screw_torque as screw_torque,
 )
 from granum.filtration.formulas.suction import (
     capillary_suction_time as capillary_suction_time,

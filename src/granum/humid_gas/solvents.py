@@ -16,8 +16,8 @@ from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import PositiveNumber
 from granum.humid_gas.pairs import LEAST_PRESSURE, MOST_PRESSURE, AbstractIdealPair, integrated, polynomial
-from granum.materials import gas_vapor
 from granum.materials.library import Library, session
+from granum.materials.pairs import gas_vapor
 from granum.numerics import find_root
 
 _COLD, _HOT = 180.0, 1000.0

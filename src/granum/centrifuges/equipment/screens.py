@@ -41,16 +41,21 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.numerics.smooth import safe_divide
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
 LEAST, THINNEST = 1e-12, 1e-9
+GRAINS = Limit(  # thinner, grains slide one by one, and the formulas of a cake say nothing of them
+    "cake thickness over the size of its grains", 1.0, math.inf, "dimensionless", "leung1998"
+)
 ConeAngle = Annotated[Angle, Within(0.0, 1.2)]
 
 
 def _screen_limits(finest: float, effect: tuple[float, float]) -> Limits:
-    return FLOODING | machine_limits(diameter=finest, solids=(0.1, 0.65), effect=effect, layer=(0.0, 0.04))
+    ends = machine_limits(diameter=finest, solids=(0.1, 0.65), effect=effect, layer=(0.0, 0.04))
+    return FLOODING | ends | {"grains": GRAINS}
 
 
 class ConicalScreen(FilteringCentrifuge):
@@ -95,6 +100,15 @@ class ConicalScreen(FilteringCentrifuge):
             flooding,
             flooding,
         )
+
+    def measured(
+        self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        grains = safe_divide(inside.thickness, self.diameter(feed), 1.0)
+        some = feed.solid_flow > 0.0
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "grains": jnp.where(some, grains, 1.0)
+        }
 
 
 @equipment(

@@ -31,9 +31,9 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
-from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
 from granum.filtration.formulas.gravity import filtrate_depth_falling_head
 from granum.filtration.kinds import FlowPerWidth, ForcePerWidth, LoadPerWidth
+from granum.filtration.squeezing import DENSEST, squeezed, void_ratio
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
@@ -41,7 +41,6 @@ from granum.streams.utilities import AREA, DRIVE, driven, pumped
 
 SOURCE = "metcalf2003, ch. 14"
 BELTS = 2.0
-DENSEST = 0.95  # of solid by volume, beyond which no sludge is squeezed
 WASH_PRESSURE = 7e5  # Pa of the belt sprays
 
 
@@ -134,13 +133,6 @@ class BeltPress(Unit):
         DRIVE | AREA | {"electric_power_pump": Utility(SOURCE), "consumption_polymer": Utility(SOURCE)}
     )
 
-    def void_ratio(self, pressure: Any) -> Any:
-        """Void ratio that a sludge takes in the end under a pressure."""
-        packed = self.solids_fraction_reference * (pressure / self.reference_pressure) ** (
-            self.compaction_exponent
-        )
-        return 1.0 / jnp.clip(packed, self.solids_fraction_gel, DENSEST) - 1.0
-
     def steps(self) -> tuple[Any, Any]:
         """Pressures of the wedge and the rollers, and how long each presses."""
         diameters = jnp.linspace(self.roller_diameter_first, self.roller_diameter_last, self.roller_count)
@@ -168,15 +160,16 @@ class BeltPress(Unit):
         solid = share * height
         before = (height - drained) / solid - 1.0
         pressures, times = self.steps()
-        ratios = jnp.minimum(self.void_ratio(pressures), before)
-        falls = -jnp.diff(ratios, prepend=before)
-        falls = jnp.maximum(falls, 0.0)
-        left = jnp.cumsum(times[::-1])[::-1]
-        reached = consolidation_ratio_terzaghi(
-            consolidation_time(left, self.consolidation_coefficient, solid, BELTS)
+        ratios = void_ratio(
+            pressures,
+            self.solids_fraction_reference,
+            self.reference_pressure,
+            self.compaction_exponent,
+            self.solids_fraction_gel,
         )
-        fallen, possible = jnp.sum(falls * reached), jnp.sum(falls)
-        return Course(height, drained, solid, before, before - fallen, safe_divide(fallen, possible, 1.0))
+        left = jnp.cumsum(times[::-1])[::-1]
+        after, reached = squeezed(before, ratios, left, self.consolidation_coefficient, solid, BELTS)
+        return Course(height, drained, solid, before, after, reached)
 
     def outlets(self, inside: Course, feed: Stream, wash: Stream | None = None) -> Pressed:
         kept = self.solids_recovery * feed.solid_volume_flow

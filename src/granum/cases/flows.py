@@ -1,0 +1,39 @@
+"""The flow of a feed of solid and liquid said in two ways: total and share of solid, or each phase."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from granum.cases.reading import quantity
+
+BY_TOTAL, BY_PHASE = ("mass_flow", "solids_mass_fraction"), ("solid_flow", "liquid_flow")
+
+
+def percent(share: float) -> str:
+    """A share as a case file writes it."""
+    return f"{100.0 * share:.10g} %"
+
+
+def in_totals(feed: Mapping[str, Any]) -> dict[str, str]:
+    """Mass flow and share of solid of a feed that says its phases."""
+    solid, liquid = (flow_of(feed, name) for name in BY_PHASE)
+    total = solid + liquid
+    return {"mass_flow": _said(total), "solids_mass_fraction": percent(solid / total if total else 0.0)}
+
+
+def in_phases(feed: Mapping[str, Any]) -> dict[str, str]:
+    """Flows of the phases of a feed that says its total; that of the solid where there is any."""
+    total = flow_of(feed, "mass_flow")
+    share = quantity(feed.get("solids_mass_fraction", 0.0), "MassFraction", "solids_mass_fraction", "")
+    solid = {"solid_flow": _said(total * share)} if share else {}
+    return solid | {"liquid_flow": _said(total * (1.0 - share))}
+
+
+def flow_of(feed: Mapping[str, Any], name: str) -> float:
+    """A flow that a feed says, kg/s; none where it does not."""
+    return quantity(feed[name], "MassFlow", name, "") if name in feed else 0.0
+
+
+def _said(flow: float) -> str:
+    return f"{3600.0 * flow:.10g} kg/h"
