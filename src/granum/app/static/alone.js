@@ -69,13 +69,18 @@ function Work({ card, given }) {
     },
     seekable: (p) => results.length > 0 && seekable(p) && !p.name.includes('.'),
   });
-  const problem = form.error || answer.error;
   const busy = form.pending || answer.pending;
+  const problem = !busy && (form.error || answer.error); // what was refused is not what is looked at now
   const wrong = problem?.details?.name;
   const field = (p) =>
     html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} aside=${finder(p)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
-  const needed = form.data?.parameters.filter((p) => p.required || form.data.values[p.name] !== undefined);
-  const more = form.data?.parameters.filter((p) => !needed.includes(p));
+  const folded = useRef(null); // a field does not move while it is filled
+  if (form.data && !folded.current)
+    folded.current = form.data.parameters
+      .filter((p) => !p.required && form.data.values[p.name] === undefined)
+      .map((p) => p.name);
+  const more = form.data?.parameters.filter((p) => folded.current.includes(p.name));
+  const needed = form.data?.parameters.filter((p) => !more.includes(p));
   /** The machine as a line of its own, handed to another page. */
   const handTo = (page) => async (e) => {
     e.preventDefault();
