@@ -136,3 +136,16 @@ def test_a_law_within_a_law_is_chosen_too(page: Page) -> None:
     page.settle()
     page.until(lambda: page.all("[data-figure]") and not page.all(".stale, .message.out"))
     page.check()
+
+
+def test_the_link_of_a_machine_alone_carries_what_was_typed(page: Page) -> None:
+    page.open(PUMP, "fr")
+    page.one("[data-figure]")
+    page.leave(page.type(RISE, "7,5"))
+    page.until(lambda: "7.5" in page.browser.current_url)
+    page.button("Copier le lien").click()
+    page.until(lambda: page.text(".row [role=status]"))
+    link = page.browser.current_url
+    page.browser.get("about:blank")
+    page.browser.get(link)
+    page.until(lambda: page.one(RISE).get_attribute("value") == "7,5")

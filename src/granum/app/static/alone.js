@@ -6,6 +6,7 @@ import {
   ask,
   link,
   useAnswer,
+  useCopying,
   useState,
   useEffect,
   useRef,
@@ -37,6 +38,7 @@ function Work({ card, given }) {
   const [values, setValues] = useState(given);
   const [past, setPast] = useState([]);
   const edited = useRef('');
+  const [copied, copy] = useCopying();
   const words = JSON.stringify(values);
   useEffect(() => replaceLink('calculate', card.card, values), [words]);
   const form = useAnswer(
@@ -111,8 +113,9 @@ function Work({ card, given }) {
         setPast([...past.slice(-50), values]);
         setValues({});
       }}>${t('Example values')}</button>
+      <button class="button" onClick=${copy}>${t('Copy link')}</button>
       <a class="button" href=${link('studies')} onClick=${handTo('studies')} aria-disabled=${String(!text)}>${t('Study')}</a>
-      <a class="button" href=${link('lines')} onClick=${handTo('lines')} aria-disabled=${String(!text)}>${t('Put it in a line')}</a></div></section>
+      <a class="button" href=${link('lines')} onClick=${handTo('lines')} aria-disabled=${String(!text)}>${t('Put it in a line')}</a> <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
       ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${form.data.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
