@@ -80,10 +80,35 @@ def test_figures_are_drawn_as_they_come_into_sight(page: Page) -> None:
 def test_the_calculations_of_a_chapter_say_how_far_they_are() -> None:
     told: list[float] = []
     chapters._known.pop("porous", None)
-    chapter_figure("porous", "voids", "en", told.append)
+    chapter_figure("porous", "regimes", "en", told.append)
     assert len(told) > 10
     assert told == sorted(told)
     assert 0.0 <= told[0] < told[-1] < 1.0
     again = len(told)
-    chapter_figure("porous", "voids", "fr", told.append)
+    chapter_figure("porous", "regimes", "fr", told.append)
     assert len(told) == again  # they are kept
+
+
+def test_a_figure_waits_for_what_it_needs_alone_and_is_the_same_after_the_whole_chapter() -> None:
+    told: list[float] = []
+    chapters._known.pop("porous", None)
+    first = chapter_figure("porous", "voids", "en", told.append)
+    assert len(told) < 10
+    everything = chapters.calculated("porous")
+    assert len([name for name in everything if name.startswith("figure_")]) > 3
+    assert chapter_figure("porous", "voids", "en") == first
+
+
+def test_what_is_changed_in_place_is_changed_before_it_is_drawn(tmp_path: Path) -> None:
+    place = tmp_path / "docs" / "handbook" / "small.py"
+    place.parent.mkdir(parents=True)
+    place.write_text(
+        "import json\nrows = []\nfor n in (1, 2):\n    rows.append(n)\nrows[0] = 5\nslow = 1 / 0\n"
+        "def twice(x):\n    return 2 * x\nlast, other = rows[-1], 3\n"
+        "def figure_it():\n    return twice(last), rows\n"
+    )
+    small = chapters.Calculations(place)
+    assert small.figures == ["it"]
+    assert small.run("figure_it")["figure_it"]() == (4, [5, 2])
+    with pytest.raises(ZeroDivisionError):
+        small.run()

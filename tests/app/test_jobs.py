@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import json
 import queue
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -368,3 +370,12 @@ def test_familiar_calculations_are_those_of_one_number_each() -> None:
     with pytest.raises(InputError):
         familiar.meet("k", {"b": 1}, lambda: tasks.evaluable("no.card", ()))
     assert not familiar.knows("k", {"b": 1})
+
+
+def test_a_process_at_rest_has_loaded_nothing_that_only_studies_and_fits_need() -> None:
+    script = (
+        "import sys; import granum.app.tasks; from granum.core import registry; registry.everything(); "
+        "print([m for m in ('scipy.stats', 'scipy.optimize', 'pandas', 'openpyxl') if m in sys.modules])"
+    )
+    told = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
+    assert told.stdout.strip() == "[]"

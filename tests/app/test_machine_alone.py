@@ -93,3 +93,59 @@ def test_the_streams_of_a_machine_alone_fit_beside_its_form(page: Page, machine:
     heads = page.texts("[data-streams] tbody th")
     assert any(head.startswith("T /") for head in heads), heads
     page.check()
+
+
+def test_a_field_of_what_may_be_left_out_stays_while_it_is_filled(page: Page) -> None:
+    page.open(PUMP)
+    page.one("[data-figure]")
+    field = page.type("#field-machine_efficiency", "65 %")
+    page.settle()
+    page.until(lambda: "machine_efficiency=" in page.browser.current_url)
+    assert field.find_elements("xpath", "ancestor::details[@class='more']"), "it does not move"
+    assert page.browser.switch_to.active_element == field
+
+
+def test_what_was_refused_is_not_said_of_what_is_typed_next(page: Page) -> None:
+    page.open(PUMP, "fr")
+    page.one("[data-figure]")
+    page.leave(page.type("#field-machine_efficiency", "-5 %"))
+    page.until(lambda: page.all("[aria-invalid=true]"))
+    page.type("#field-machine_efficiency", "60 %")
+    page.until(lambda: not page.all("[aria-invalid=true]"))
+    page.settle()
+    assert not page.all(".message.out")
+    assert not page.all(".stale [data-figure]")
+
+
+def test_refusals_of_a_stream_are_in_words(page: Page) -> None:
+    page.open(PUMP, "fr")
+    page.one("[data-figure]")
+    page.type("#field-feed\\.temperature", "-300 °C")
+    page.says(".told", "Température = −300 °C n’est pas possible")
+    assert "feed" not in page.text(".told")
+
+
+def test_a_law_within_a_law_is_chosen_too(page: Page) -> None:
+    page.open("calculate/crystallization.antisolvent_crystallizer", "fr")
+    inner = page.one("select#field-solubility-pure_solubility")
+    assert inner.get_attribute("value") == "library_solubility"
+    page.type("#field-solubility-pure_solubility-solute", "sodium chlorure")
+    page.until(lambda: page.all(".message.out"))
+    page.browser.get_log("browser")
+    page.type("#field-solubility-pure_solubility-solute", "sodium chloride")
+    page.settle()
+    page.until(lambda: page.all("[data-figure]") and not page.all(".stale, .message.out"))
+    page.check()
+
+
+def test_the_link_of_a_machine_alone_carries_what_was_typed(page: Page) -> None:
+    page.open(PUMP, "fr")
+    page.one("[data-figure]")
+    page.leave(page.type(RISE, "7,5"))
+    page.until(lambda: "7.5" in page.browser.current_url)
+    page.button("Copier le lien").click()
+    page.until(lambda: page.text(".row [role=status]"))
+    link = page.browser.current_url
+    page.browser.get("about:blank")
+    page.browser.get(link)
+    page.until(lambda: page.one(RISE).get_attribute("value") == "7,5")

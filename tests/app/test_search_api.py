@@ -64,6 +64,7 @@ isotherme de sorption: drying.isotherm · eau liée: drying.kinds_of_water
 clairçage: filtration.washing_curve · clarifloculation: settling.jar_test · tartre: evaporation.evaporator
 coulabilité: conveying.flow_function · triple effet: evaporation.multiple_effect_evaporator
 débourbage: centrifuges.discharge_interval · lyophilisation: drying.freeze_dryer
+taux d'humidité: humid_gas.relative_humidity · hygrométrie: humid_gas.relative_humidity
 """
 ENGLISH = """
 voidage: porous.void_fraction_from_mass · umf: fluidization.minimum_fluidization_velocity_wen_yu

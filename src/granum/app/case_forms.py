@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from granum.app.forms import card_form, laws_with_parameters, options
+from granum.app.forms import card_form, laws_of, options, typed
 from granum.app.own_substances import form_row, own_substances
 from granum.cases.building import completed, share_of_feed
 from granum.cases.outline import Outline, outline, table_of
@@ -293,7 +293,7 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         row = form_row(sizes) | {
             "label": _("particle sizes"),
             "options": options(sizes),
-            "laws": laws_with_parameters(sizes),
+            **laws_of(sizes),
         }
         rows.append(row)
         if "sizes" in table:
@@ -305,6 +305,8 @@ def case_value(value: Any) -> str:
     """A value of a case file as a form holds it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, float):
+        return typed(value, 15)
     if isinstance(value, dict):
         return json.dumps(value, ensure_ascii=False, default=str)
     if isinstance(value, list):

@@ -7,7 +7,8 @@ import __future__
 
 import ast
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -26,44 +27,93 @@ def said(english: str, french: str) -> str:
     return french if current_language() == "fr" else english
 
 
-_known: dict[str, dict[str, Any]] = {}
+class Calculations:
+    """What stands beside a chapter, run as far as somebody asks and each statement once."""
+
+    def __init__(self, place: Path):
+        shared = str(place.parent.parent)  # what chapters and the validation have in common
+        if shared not in sys.path:
+            sys.path.append(shared)
+        self._module = ModuleType(f"handbook.{place.stem}")
+        self._module.__file__ = str(place)
+        sys.modules[self._module.__name__] = self._module  # where classes that it defines look for themselves
+        self._statements = ast.parse(place.read_text(encoding="utf-8"), str(place)).body
+        self._about = _about(self._statements)
+        self._done: set[int] = set()
+
+    @property
+    def figures(self) -> list[str]:
+        """The names of its figures."""
+        given = (name for names, _taken in self._about for name in names)
+        return [name.removeprefix(FIGURE) for name in given if name.startswith(FIGURE)]
+
+    def run(self, wanted: str = "", tell: Callable[[float], None] = lambda _share: None) -> dict[str, Any]:
+        """What is defined, by name, once all has run that ``wanted`` needs, else everything."""
+        left = sorted((self._needed(wanted) if wanted else set(range(len(self._statements)))) - self._done)
+        for count, number in enumerate(left):
+            tell(count / len(left))
+            part = ast.Module([self._statements[number]], [])
+            exec(compile(part, str(self._module.__file__), "exec", _FLAGS, True), vars(self._module))
+            self._done.add(number)
+        return vars(self._module)
+
+    def _needed(self, wanted: str) -> set[int]:
+        names, found = {wanted}, set[int]()
+        while more := {
+            i for i, (given, _taken) in enumerate(self._about) if i not in found and given & names
+        }:
+            found |= more
+            names = names.union(*(self._about[i][1] for i in more))
+        return found
 
 
-def calculated(domain: str, tell: Callable[[float], None] = lambda _share: None) -> dict[str, Any]:
-    """What the calculations of a chapter define, by name; they run once, and ``tell`` hears which share of
-    them is done.
+def _about(statements: Sequence[ast.stmt]) -> list[tuple[set[str], set[str]]]:
+    """Of each statement the names that have their value by it, and those that it takes; what may change a
+    thing in place gives that too.
     """
-    if domain not in _known:
-        _known[domain] = _run(domain, tell)
-    return _known[domain]
+    told, declared = [], set[str]()
+    for one in statements:
+        nodes = [node for node in ast.walk(one) if isinstance(node, ast.Name)]
+        taken = {node.id for node in nodes}
+        if isinstance(one, (ast.FunctionDef, ast.ClassDef)):
+            given = {one.name}
+        elif isinstance(one, (ast.Import, ast.ImportFrom)):
+            given = {alias.asname or alias.name.partition(".")[0] for alias in one.names}
+        elif isinstance(one, (ast.Assign, ast.AnnAssign)):
+            given = {node.id for node in nodes if isinstance(node.ctx, ast.Store)} or taken
+        else:
+            given = taken - declared
+        if isinstance(one, (ast.FunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom)):
+            declared |= given
+        told.append((given, taken))
+    return told
 
 
-def _run(domain: str, tell: Callable[[float], None]) -> dict[str, Any]:
+_known: dict[str, Calculations] = {}
+
+
+def _calculations(domain: str) -> Calculations:
     known = chapter_calculations()
     if domain not in known:
         raise unknown_name(_("Chapter"), domain, known, quantities=False)
-    shared = str(known[domain].parent.parent)  # what chapters and the validation have in common
-    if shared not in sys.path:
-        sys.path.append(shared)
-    module = ModuleType(f"handbook.{domain}")
-    module.__file__ = str(known[domain])
-    sys.modules[module.__name__] = module  # where classes that it defines look for themselves
-    statements = ast.parse(known[domain].read_text(encoding="utf-8"), module.__file__).body
-    for done, statement in enumerate(statements):
-        tell(done / len(statements))
-        part = ast.Module([statement], [])
-        exec(compile(part, module.__file__, "exec", _FLAGS, True), vars(module))
-    return vars(module)
+    if domain not in _known:
+        _known[domain] = Calculations(known[domain])
+    return _known[domain]
+
+
+def calculated(domain: str) -> dict[str, Any]:
+    """What the calculations of a chapter define, by name; they run once."""
+    return _calculations(domain).run()
 
 
 def chapter_figure(
     domain: str, name: str, code: str, tell: Callable[[float], None] = lambda _share: None
 ) -> go.Figure:
-    """A figure of a chapter in a language."""
-    parts = calculated(domain, tell)
-    figures = [part.removeprefix(FIGURE) for part in parts if part.startswith(FIGURE)]
-    if name not in figures:
-        raise unknown_name(_("Figure of the chapter"), name, figures, quantities=False)
+    """A figure of a chapter in a language; ``tell`` hears which share of what it needs is calculated."""
+    chapter = _calculations(domain)
+    if name not in chapter.figures:
+        raise unknown_name(_("Figure of the chapter"), name, chapter.figures, quantities=False)
+    parts = chapter.run(FIGURE + name, tell)
     with language(code):
         chart = parts[FIGURE + name]()
     chart.update_layout(title=None)  # the caption says it

@@ -21,6 +21,7 @@ from granum.core import registry
 from granum.core.cards import Card
 from granum.core.conversion import convert
 from granum.core.errors import InputError, UnitError
+from granum.core.glossary import quantity_in
 from granum.core.i18n import _
 from granum.core.index import entries
 from granum.core.kinds import KINDS, Kind
@@ -60,7 +61,7 @@ def card_form(key: str) -> dict[str, Any]:
     for row, p in zip(data["parameters"], card.parameters, strict=True):
         row |= _field(p)
         row["options"] = options(p)
-        row["laws"] = laws_with_parameters(p)
+        row |= laws_of(p)
         row["headings"] = heading_names(p) if p.series else ()
         row["several"] = bool(p.kind) and card.sort == "formula"
         row["interval"] = bool(p.kind) and not p.series and card.sort in ("formula", "procedure")
@@ -71,7 +72,7 @@ def card_form(key: str) -> dict[str, Any]:
 
 def fields_of(p: Parameter) -> dict[str, Any]:
     """A field for a parameter that no card declares."""
-    row = p.as_json() | _field(p) | {"options": options(p), "laws": laws_with_parameters(p)}
+    row = p.as_json() | _field(p) | {"options": options(p)} | laws_of(p)
     return row | {"several": False, "example": None}
 
 
@@ -252,8 +253,16 @@ def _asked_parameter(asked: Mapping[str, Any]) -> Parameter:
     }
     bounds |= {end: bool(asked.get(end)) for end in ("open_lower", "open_upper")}
     return Parameter(
-        str(asked.get("name", "")), replace(kind, **bounds), series="points" if asked.get("series") else None
+        _quantity(str(asked.get("name", ""))),
+        replace(kind, **bounds),
+        series="points" if asked.get("series") else None,
     )
+
+
+def _quantity(name: str) -> str:
+    """What the field of a stream asks for: ``gas.relative_humidity``, or the share ``feed.liquid.water``."""
+    last = name.rpartition(".")[2]
+    return last if last == name or quantity_in(last) else "mass_fraction"
 
 
 def _known(unit: str, kind: Kind) -> bool:
@@ -429,6 +438,20 @@ def laws_with_parameters(p: Parameter) -> dict[str, dict[str, Any]]:
             }
             found |= {thing.card.name: law, thing.card.name.removeprefix(p.law or "").strip("_"): law}
     return found
+
+
+def laws_of(p: Parameter) -> dict[str, Any]:
+    """The laws that may stand for a parameter, and those that stand in these: each family once."""
+    laws = laws_with_parameters(p)
+    families: dict[str, dict[str, Any]] = {}
+    waiting = [laws]
+    while waiting:
+        inner = {q["law"] for law in waiting.pop().values() for q in law["parameters"].values() if "law" in q}
+        for name in sorted(inner - families.keys()):
+            within = Parameter(name, law=name)
+            families[name] = {"options": options(within), "laws": laws_with_parameters(within)}
+            waiting.append(families[name]["laws"])
+    return {"laws": laws, "families": families}
 
 
 def _edge(value: float, kind: Kind) -> str:

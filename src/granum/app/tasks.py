@@ -157,11 +157,18 @@ def figure(payload: dict[str, Any], _tell: Tell) -> bytes:
 def chapter_figure(payload: dict[str, Any], tell: Tell) -> bytes:
     """A figure of a chapter of the handbook, in the language of the chapter."""
     from granum.app.chapters import chapter_figure as drawn  # draws with many domains
+    from granum.app.shipped import written
+    from granum.core import kept
 
-    note = _("the calculations of the chapter are run")
-    tell(0.0, note)
-    chart = drawn(payload["domain"], payload["name"], payload["code"], lambda share: tell(0.9 * share, note))
-    return str(chart.to_json()).encode()
+    asked = payload["domain"], payload["name"], payload["code"]
+    once = kept.Named(("figure of a chapter", asked, written()))
+    text = once.found()
+    if text is None:
+        note = _("the calculations of the chapter are run")
+        tell(0.0, note)
+        text = str(drawn(*asked, lambda share: tell(0.9 * share, note)).to_json())
+        once.put(lambda: text)
+    return text.encode()
 
 
 def solve(payload: dict[str, Any], _tell: Tell) -> bytes:

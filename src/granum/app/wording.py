@@ -10,15 +10,16 @@ from granum.core import registry
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
+from granum.core.index import entries
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, pretty_unit
-from granum.streams.names import pretty
+from granum.streams.names import french, pretty
 
 _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
-_PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\]:? ?")
+_PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
 _BEGINNING = re.compile(r"^.|(?<=[^\W\d]{2}[.?!] )[^\W\d_](?=[^\W\d_.]+[ ,])")
@@ -34,7 +35,7 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
     ... )
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
     """  # noqa: E501
-    text = _STUDY.sub("", _PLACE.sub(lambda found: _placed(found[1], message), message))
+    text = _STUDY.sub("", _PLACE.sub(lambda found: _placed(found, message), message))
     text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
     text = _WITH_LABEL.sub(_labelled, text)
     text = _ALONE.sub(
@@ -51,11 +52,24 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
     return _BEGINNING.sub(lambda found: found[0].upper(), text)
 
 
-def _placed(name: str, message: str) -> str:
+def _placed(found: re.Match[str], message: str) -> str:
     """The unit or feed that a message is about, where it does not name the machine of that name anyway."""
+    name = found[1]
+    if found.start() > 0:
+        return f"{_called(name)}{found[2]}"
     if any(key[0].rpartition(".")[2] == name for key in _KEY.finditer(message)):
         return ""
-    return _("{unit}: {message}").format(unit=pretty(name), message="")
+    return _("{unit}: {message}").format(unit=_called(name), message="")
+
+
+def _called(name: str) -> str:
+    """A unit or a feed as people read it; one that bears the name of its machine, as a machine alone does, by
+    its title.
+    """
+    machines = (entry.key for entry in entries().values() if entry.sort == "equipment" and entry.name == name)
+    if name not in french() and (key := next(machines, "")):
+        return _title(key)
+    return pretty(name)
 
 
 def told(error: Mapping[str, Any]) -> dict[str, Any]:

@@ -58,7 +58,8 @@ def document(kind: str, key: str, said: Iterable[tuple[float, str]], worth: floa
         if words := tokens(text):
             phrases[words] = max(weight, phrases.get(words, 0.0))
     long = min(len(next(iter(phrases), ())), 10)  # of several that fit alike the plainest comes first
-    names = [words for words, weight in phrases.items() if weight >= NAMES]
+    # a symbol is no word of a language: what is written r_h is no relative humidity
+    names = [words for words, weight in phrases.items() if weight > SYMBOL]
     phrases = {words: NAME * (0.6 + 0.4 * share) for words, share in _same_as(names).items()} | phrases
     return Document(kind, key, phrases, worth * (1.0 - 0.01 * long))
 

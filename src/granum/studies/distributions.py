@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import special, stats
+import scipy
 
 from granum.core.conversion import convert
 from granum.core.errors import InputError, unknown_name
@@ -97,7 +97,9 @@ class FromFit(Source):
     def values(self, u: np.ndarray) -> np.ndarray:
         u = np.clip(u, EDGE, 1.0 - EDGE)
         dof = self.fit.statistics["degrees_of_freedom"]
-        drawn = self.fit.at_normal(special.ndtri(u[:, :-1]), np.sqrt(stats.chi2.ppf(u[:, -1], dof) / dof))
+        drawn = self.fit.at_normal(
+            scipy.special.ndtri(u[:, :-1]), np.sqrt(scipy.stats.chi2.ppf(u[:, -1], dof) / dof)
+        )
         known = {**drawn, **self.fit.derived_from(drawn)}
         return np.stack([known[n] for n in self.estimates], axis=1)
 
@@ -217,7 +219,7 @@ def _normal(name: str, read: dict[str, float], where: str) -> Marginal:
         name,
         "normal",
         {"mean": mean, "standard_deviation": spread},
-        stats.norm(mean, spread),
+        scipy.stats.norm(mean, spread),
         **_limits(read),
     )
 
@@ -236,12 +238,12 @@ def _lognormal(name: str, read: dict[str, float], where: str) -> Marginal:
             ).format(where=where)
         )
     numbers = {"median": float(median), "geometric_standard_deviation": float(np.exp(sigma))}
-    return Marginal(name, "lognormal", numbers, stats.lognorm(sigma, scale=median), **_limits(read))
+    return Marginal(name, "lognormal", numbers, scipy.stats.lognorm(sigma, scale=median), **_limits(read))
 
 
 def _uniform(name: str, read: dict[str, float], where: str) -> Marginal:
     low, high = read["lower"], read["upper"]
-    return Marginal(name, "uniform", {"lower": low, "upper": high}, stats.uniform(low, high - low))
+    return Marginal(name, "uniform", {"lower": low, "upper": high}, scipy.stats.uniform(low, high - low))
 
 
 def _loguniform(name: str, read: dict[str, float], where: str) -> Marginal:
@@ -250,7 +252,7 @@ def _loguniform(name: str, read: dict[str, float], where: str) -> Marginal:
         raise InputError(
             _("{where}: 'lower' of a loguniform distribution must be greater than zero.").format(where=where)
         )
-    return Marginal(name, "loguniform", {"lower": low, "upper": high}, stats.loguniform(low, high))
+    return Marginal(name, "loguniform", {"lower": low, "upper": high}, scipy.stats.loguniform(low, high))
 
 
 def _triangular(name: str, read: dict[str, float], where: str) -> Marginal:
@@ -258,7 +260,9 @@ def _triangular(name: str, read: dict[str, float], where: str) -> Marginal:
     if not low <= mode <= high:
         raise InputError(_("{where}: 'mode' must lie between 'lower' and 'upper'.").format(where=where))
     numbers = {"lower": low, "mode": mode, "upper": high}
-    return Marginal(name, "triangular", numbers, stats.triang((mode - low) / (high - low), low, high - low))
+    return Marginal(
+        name, "triangular", numbers, scipy.stats.triang((mode - low) / (high - low), low, high - low)
+    )
 
 
 _MAKERS = {

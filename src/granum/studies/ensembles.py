@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from scipy.stats import rankdata
+import scipy
 
 from granum.core.i18n import _
 from granum.studies.declared import MOST_CASES, limits_of, prepare, sources_of, whole
@@ -49,10 +49,10 @@ class Ensemble(Outcome):
         good = self.cases.fine
         if good.sum() < 3:
             return {}
-        ranks = np.apply_along_axis(rankdata, 0, self.cases.x[good])
+        ranks = np.apply_along_axis(scipy.stats.rankdata, 0, self.cases.x[good])
         found = {}
         for j, path in enumerate(self.cases.outputs):
-            y = rankdata(self.cases.y[good, j])
+            y = scipy.stats.rankdata(self.cases.y[good, j])
             with np.errstate(invalid="ignore", divide="ignore"):
                 rho = [
                     float(np.corrcoef(ranks[:, i], y)[0, 1]) if np.ptp(y) and np.ptp(ranks[:, i]) else np.nan

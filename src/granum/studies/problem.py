@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
+import scipy
 
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -74,7 +74,9 @@ def starts_of(
 ) -> list[np.ndarray]:
     places = [np.array([spans[p].place(v) for p, v in first.items()])]
     if count > 1:
-        places += list(qmc.LatinHypercube(len(spans), rng=np.random.default_rng(seed)).random(count - 1))
+        places += list(
+            scipy.stats.qmc.LatinHypercube(len(spans), rng=np.random.default_rng(seed)).random(count - 1)
+        )
     return places
 
 

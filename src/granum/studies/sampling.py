@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import qmc
+import scipy
 
 from granum.core.errors import unknown_name
 from granum.core.i18n import _
@@ -21,9 +21,9 @@ def unit_points(method: str, count: int, dimensions: int, seed: int) -> np.ndarr
     if method == "random":
         return np.random.default_rng(seed).random((count, dimensions))
     if method == "latin_hypercube":
-        return qmc.LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(count)
+        return scipy.stats.qmc.LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(count)
     whole = int(np.ceil(np.log2(max(count, 2))))  # the sequence is balanced at powers of two
-    return qmc.Sobol(dimensions, rng=np.random.default_rng(seed)).random_base2(whole)[:count]
+    return scipy.stats.qmc.Sobol(dimensions, rng=np.random.default_rng(seed)).random_base2(whole)[:count]
 
 
 def inputs_at(sources: Sequence[Source], points: np.ndarray) -> np.ndarray:

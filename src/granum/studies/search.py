@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from scipy import optimize as scipy_optimize
+import scipy
 
 from granum.studies.distributions import Source
 from granum.studies.subjects import FINE, Subject
@@ -241,7 +241,7 @@ def descend(
     bounds = [(0.0, 1.0)] * len(start)
     if method == "slsqp":
         limits: Any = [{"type": "ineq", "fun": slack, "jac": slack_slope}] if constraints else []
-        ended = scipy_optimize.minimize(
+        ended = scipy.optimize.minimize(
             objective,
             start,
             jac=True,
@@ -253,22 +253,22 @@ def descend(
     else:
         limits = (
             [
-                scipy_optimize.NonlinearConstraint(
+                scipy.optimize.NonlinearConstraint(
                     slack,
                     0.0,
                     np.inf,
                     jac=slack_slope,  # type: ignore[arg-type]
-                    hess=scipy_optimize.BFGS(),
+                    hess=scipy.optimize.BFGS(),
                 )
             ]
             if constraints
             else []
         )
-        ended = scipy_optimize.minimize(
+        ended = scipy.optimize.minimize(
             objective,
             start,
             jac=True,
-            hess=scipy_optimize.BFGS(),
+            hess=scipy.optimize.BFGS(),
             bounds=bounds,
             constraints=limits,
             method="trust-constr",
@@ -327,6 +327,6 @@ def multipliers(
     if not columns:
         return found, float(np.linalg.norm(slope))
     size = np.linalg.norm(slope) or 1.0
-    parts, rest = scipy_optimize.nnls(np.stack(columns, axis=1), slope / size)
+    parts, rest = scipy.optimize.nnls(np.stack(columns, axis=1), slope / size)
     found[active] = parts[: len(active)] * size
     return found, float(rest)

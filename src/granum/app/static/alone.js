@@ -6,6 +6,7 @@ import {
   ask,
   link,
   useAnswer,
+  useCopying,
   useState,
   useEffect,
   useRef,
@@ -37,6 +38,7 @@ function Work({ card, given }) {
   const [values, setValues] = useState(given);
   const [past, setPast] = useState([]);
   const edited = useRef('');
+  const [copied, copy] = useCopying();
   const words = JSON.stringify(values);
   useEffect(() => replaceLink('calculate', card.card, values), [words]);
   const form = useAnswer(
@@ -69,13 +71,18 @@ function Work({ card, given }) {
     },
     seekable: (p) => results.length > 0 && seekable(p) && !p.name.includes('.'),
   });
-  const problem = form.error || answer.error;
   const busy = form.pending || answer.pending;
+  const problem = !busy && (form.error || answer.error); // what was refused is not what is looked at now
   const wrong = problem?.details?.name;
   const field = (p) =>
     html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} aside=${finder(p)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
-  const needed = form.data?.parameters.filter((p) => p.required || form.data.values[p.name] !== undefined);
-  const more = form.data?.parameters.filter((p) => !needed.includes(p));
+  const folded = useRef(null); // a field does not move while it is filled
+  if (form.data && !folded.current)
+    folded.current = form.data.parameters
+      .filter((p) => !p.required && form.data.values[p.name] === undefined)
+      .map((p) => p.name);
+  const more = form.data?.parameters.filter((p) => folded.current.includes(p.name));
+  const needed = form.data?.parameters.filter((p) => !more.includes(p));
   /** The machine as a line of its own, handed to another page. */
   const handTo = (page) => async (e) => {
     e.preventDefault();
@@ -106,8 +113,9 @@ function Work({ card, given }) {
         setPast([...past.slice(-50), values]);
         setValues({});
       }}>${t('Example values')}</button>
+      <button class="button" onClick=${copy}>${t('Copy link')}</button>
       <a class="button" href=${link('studies')} onClick=${handTo('studies')} aria-disabled=${String(!text)}>${t('Study')}</a>
-      <a class="button" href=${link('lines')} onClick=${handTo('lines')} aria-disabled=${String(!text)}>${t('Put it in a line')}</a></div></section>
+      <a class="button" href=${link('lines')} onClick=${handTo('lines')} aria-disabled=${String(!text)}>${t('Put it in a line')}</a> <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
       ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${form.data.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>

@@ -5,6 +5,7 @@ import {
   ask,
   link,
   useAnswer,
+  useCopying,
   useState,
   useEffect,
   useRef,
@@ -58,7 +59,7 @@ function Work({ page, card, given }) {
   const [past, setPast] = useState([]);
   const [kept, setKept] = useKept('compared ' + card.card, []);
   const edited = useRef('');
-  const [copied, setCopied] = useState('');
+  const [copied, copy] = useCopying();
   useEffect(() => replaceLink(page, card.card, values), [values]);
   const kind = card.sort === 'chart' ? 'chart' : 'calc';
   const missing = missingOf(card, card.parameters, values);
@@ -113,15 +114,6 @@ function Work({ page, card, given }) {
   const sheet = async (shown) => {
     const body = { ...shown, inputs: values, link: location.href };
     download(`${card.card}.html`, await ask(`/api/sheet/${card.card}`, body, { text: true }), 'text/html');
-  };
-  const copy = async () => {
-    try {
-      await navigator.clipboard.writeText(location.href);
-      setCopied(t('Copied.'));
-    } catch {
-      setCopied(location.href);
-    }
-    setTimeout(() => setCopied(''), 4000);
   };
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary} <${Chapter} card=${card.card} /></p>
       <form onSubmit=${(e) => e.preventDefault()} onfocusout=${() => {

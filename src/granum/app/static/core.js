@@ -225,6 +225,21 @@ export function useAnswer(make, dependencies, wait = 60) {
   return { data: state.data, error: state.error, pending, cancel, job: () => running.current?.signal.job };
 }
 
+/** What is said after the address of the page has been copied, and what copies it. */
+export function useCopying() {
+  const [copied, setCopied] = useState('');
+  const copy = async () => {
+    try {
+      await navigator.clipboard.writeText(location.href);
+      setCopied(t('Copied.'));
+    } catch {
+      setCopied(location.href);
+    }
+    setTimeout(() => setCopied(''), 4000);
+  };
+  return [copied, copy];
+}
+
 /**
  * Shown once something takes longer than a second: what the server is doing, how long already, and a way to stop it.
  * `job` gives the name of the request waited for; without one, `share` and `text` say how far it is.

@@ -60,16 +60,29 @@ function LawTable({ p, id, note, text, onChange }) {
     ${Object.entries(table)
       .filter(([name]) => name !== 'law')
       .map(([name, value]) => {
-        const q = law?.parameters[name];
+        const declared = law?.parameters[name];
+        const q = declared && { ...declared, ...p.families?.[declared.law], families: p.families };
         return html`<div class="small given" key=${`${table.law} ${name}`} data-option=${name}><label for=${`${id}-${name}`}>${q?.label || name.replaceAll('_', ' ')}</label>
         ${
-          q?.kind && isQuantity(value)
-            ? html`<${Quantity} p=${q} id=${`${id}-${name}`} note=${note} text=${[value].flat().join('; ')} onChange=${(next) => set(name, bare(next, value))} />`
-            : html`<input id=${`${id}-${name}`} value=${plain(value)} onInput=${(e) => set(name, read(e.target.value, value))} />`
+          q?.law && (value?.law || q.options?.length)
+            ? html`<${value?.law ? LawTable : Choice} p=${q} id=${`${id}-${name}`} note=${note} text=${value?.law ? JSON.stringify(value) : named(q, value)} onChange=${(next) => set(name, table_of(next))} />`
+            : q?.kind && isQuantity(value)
+              ? html`<${Quantity} p=${q} id=${`${id}-${name}`} note=${note} text=${[value].flat().map(brief).join('; ')} onChange=${(next) => set(name, bare(next, value))} />`
+              : html`<input id=${`${id}-${name}`} value=${plain(value)} onInput=${(e) => set(name, read(e.target.value, value))} />`
         }</div>`;
       })}</div>`;
 }
 
+/** The option that a word means: a law may be called without the name of its family, or the other way round. */
+const named = (p, word) =>
+  p.options.find((o) => o.value === word || o.value === `${p.law}_${word}`)?.value ?? String(word);
+/** A law with parameters stands as a table in another. */
+const table_of = (text) => (text.startsWith('{') ? JSON.parse(text) : text);
+/** A number with its power of ten where it would be a row of zeros. */
+const brief = (x) =>
+  typeof x === 'number' && x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6)
+    ? x.toExponential().replace('e+', 'e')
+    : String(x);
 const isQuantity = (value) => [value].flat().every((x) => typeof x === 'number' || typeof x === 'string');
 const plain = (value) =>
   typeof value === 'string'

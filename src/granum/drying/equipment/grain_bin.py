@@ -6,7 +6,7 @@ import math
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
-from scipy.optimize import root_scalar
+import scipy
 
 from granum.core import equipment
 from granum.core.flags import unsolved
@@ -157,7 +157,9 @@ class GrainBin(LayerDryer):
             return float(jnp.log(bin_of(math.exp(x)).pressure_lost(feed, gas) / pressure_drop))
 
         middle = math.log(volume ** (2.0 / 3.0))
-        return bin_of(math.exp(root_scalar(over, bracket=(middle - 9.0, middle + 9.0), xtol=1e-12).root))
+        return bin_of(
+            math.exp(scipy.optimize.root_scalar(over, bracket=(middle - 9.0, middle + 9.0), xtol=1e-12).root)
+        )
 
     def extent(self) -> Any:
         return self.area * self.height

@@ -187,7 +187,10 @@ def drying_flux_penman(
     straight between surface and air. Sources not opened. The slope of the vapor pressure at 20 °C is 145 Pa/K
     and γ 67 Pa/K: at saturation 0.68 of the radiation evaporates.
 
+    >>> open_air = drying_flux_penman("200 W/m2", "2 m/s", "20 degC", "50 %")
     >>> flux = drying_flux_penman(200.0, 2.0, 293.15, 1.0)
+    >>> bool(open_air > flux)
+    True
     >>> round(float(flux * water_heat_of_vaporization(293.15)) / 200.0, 2)
     0.68
     """
