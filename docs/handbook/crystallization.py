@@ -159,6 +159,9 @@ pure = {
     )
     for wash in (0, 0.8, 0.98)
 }
+per_salt = float(at["potassium nitrate"][0].solubility_per_solvent)
+over = 1190 * (1.01 * per_salt / (1 + 1.01 * per_salt) - per_salt / (1 + per_salt))
+clear = c.growth_rate_clear_carlson("0.5 mm", "5 cm/s", over, 2110, 1.5e-9, "0.8 mm^2/s")
 hindered = c.growth_ratio_kubota_mullin("1 %", "2 mmol/L", 1 / 3, "2 %")
 
 # ---- stirrer

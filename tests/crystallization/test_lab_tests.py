@@ -152,6 +152,8 @@ def test_batch_kinetics_finds_the_parameters_that_made_the_data():
     assert found["nucleation_order"].value == pytest.approx(1.78, abs=0.6)
     low, high = found["growth_coefficient"].interval_95
     assert low < 6967e-6 / 60 < high
+    low, high = found["nucleation_coefficient"].interval_95
+    assert 0.0 < low < np.exp(19.207) < high
     assert isinstance(test.model(found.values).volume, SuspensionVolume)
 
 

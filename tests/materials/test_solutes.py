@@ -18,6 +18,7 @@ from granum.core import flags
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.notices import describe
 from granum.core.sources import bibliography, keys_of
+from granum.materials.correlation import Owner
 
 # Entered without re-reading the book; tolerances are the spread seen between the two tables (13 % for
 # magnesium sulfate at 10 °C).
@@ -316,3 +317,9 @@ def test_solution_properties_are_flagged_beyond_the_data_of_their_coefficients()
         with flags.collect() as records:
             system.density_law(T, w)
         assert {row["name"] for row in describe(records)} == expected
+
+
+def test_a_property_names_the_crystal_only_where_it_is_called_otherwise_than_the_solute() -> None:
+    crystals = (("salt", "sel"), ("salt dihydrate", "sel dihydraté"))
+    named = [Owner.of_property("salt", "solubility", "sel", *crystal).label for crystal in crystals]
+    assert named == ["salt: solubility", "salt: solubility (salt dihydrate)"]

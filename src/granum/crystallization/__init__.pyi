@@ -184,6 +184,14 @@ from granum.crystallization.formulas.impurities import (
     pinning_supersaturation as pinning_supersaturation,
     undercooling_growth_start as undercooling_growth_start,
 )
+from granum.crystallization.formulas.inclusions import (
+    InclusionOnset as InclusionOnset,
+    OnsetByGrowth as OnsetByGrowth,
+    OnsetSize as OnsetSize,
+    growth_rate_clear_carlson as growth_rate_clear_carlson,
+    inclusion_fraction_mean as inclusion_fraction_mean,
+    inclusion_onset_size_carlson as inclusion_onset_size_carlson,
+)
 from granum.crystallization.formulas.ionizable import (
     IonizedSolubility as IonizedSolubility,
     SolubilityAtPh as SolubilityAtPh,
@@ -248,6 +256,8 @@ from granum.crystallization.formulas.programs import (
 )
 from granum.crystallization.formulas.purity import (
     Purity as Purity,
+    SharedOut as SharedOut,
+    impurity_share_crystallized as impurity_share_crystallized,
     purity_of_crystals as purity_of_crystals,
 )
 from granum.crystallization.formulas.ripening import (

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from granum.core.kinds import GrowthRate, Kind, Law, MassFraction, MolarEnergy, PositiveNumber, Volume, Within
+from granum.core.kinds import (
+    Fraction,
+    GrowthRate,
+    Kind,
+    Law,
+    MassFraction,
+    MolarEnergy,
+    PositiveNumber,
+    Volume,
+    Within,
+)
 
 VesselVolume = Annotated[Volume, Within(1e-6)]  # a milliliter: nothing crystallizes in none
 PositiveTemperatureDifference = Annotated[
@@ -69,7 +79,7 @@ ImpurityConcentration = Annotated[
 AdsorptionCoefficient = Annotated[
     Any, Kind("Langmuir coefficient", "m^3/mol", lower=0.0, display=("L/mol", "m^3/mol"))
 ]
-InclusionShare = Annotated[MassFraction, Within(0.0, 0.5)]  # of a crystal's volume
+InclusionShare = Annotated[Fraction, Within(0.0, 0.5)]  # of a crystal's volume
 Solubility = Annotated[Any, Law("solubility_law")]
 Growth = Annotated[Any, Law("growth_rate")]
 Nucleation = Annotated[Any, Law("nucleation_rate")]

@@ -153,6 +153,7 @@ def parameter_notes(
 ) -> list[dict[str, Any]]:
     """Parameters at a bound, hardly told apart, or no different from zero."""
     found = []
+    known = {name: Parameter(name, kind_of(problem.kinds.get(name))) for name in (*estimates, *held)}
     for name, bound in held.items():
         sentence = (
             _("'{name}' ended on its lower bound, {value}: the data do not determine it.")
@@ -162,9 +163,7 @@ def parameter_notes(
         found.append(
             note(
                 "at bound",
-                sentence.format(
-                    name=name, value=_shown(bound, Parameter(name, kind_of(problem.kinds.get(name))), bound)
-                ),
+                sentence.format(name=known[name].label, value=_shown(bound, known[name], bound)),
                 card,
                 name,
             )
@@ -180,12 +179,12 @@ def parameter_notes(
         if correlation[i, j] >= 0.0:
             sentence = _(
                 "'{one}' and '{other}' can hardly be told apart by these data (condition {condition})."
-            ).format(one=names[i], other=names[j], condition=_condition(condition))
+            ).format(one=known[names[i]].label, other=known[names[j]].label, condition=_condition(condition))
         else:
             sentence = _(
                 "These data do not determine all of {names} (condition {condition}): their covariance "
                 "cannot be calculated."
-            ).format(names=", ".join(names), condition=_condition(condition))
+            ).format(names=", ".join(known[name].label for name in names), condition=_condition(condition))
         found.append(note("poorly identified", sentence, card, names[i]))
     for name, estimate in estimates.items():
         low, high = estimate.interval_95
@@ -193,7 +192,7 @@ def parameter_notes(
             found.append(
                 note(
                     "not significant",
-                    _("'{name}' does not differ from zero at 95 %.").format(name=name),
+                    _("'{name}' does not differ from zero at 95 %.").format(name=known[name].label),
                     card,
                     name,
                 )

@@ -62,7 +62,7 @@ class Owner(str):
         told = _("{material}: {what}").format(
             material=named, what=_(what.removesuffix(f" ({self.of})") if self.of else what)
         )
-        return f"{told} ({of})" if of else told
+        return f"{told} ({of})" if of and of != named else told
 
 
 class Correlation(eqx.Module):

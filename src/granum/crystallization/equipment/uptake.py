@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -11,8 +11,10 @@ from granum.core import equipment
 from granum.core.errors import CaseError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
-from granum.core.kinds import MassFraction, PositiveNumber, Ratio
+from granum.core.kinds import Distance, Law, MassFraction, PositiveNumber, Ratio
 from granum.crystallization.equipment.roles import Roles, roles
+from granum.crystallization.formulas.inclusions import LARGEST, inclusion_fraction_mean
+from granum.crystallization.formulas.purity import impurity_share_crystallized
 from granum.crystallization.kinds import InclusionShare
 from granum.numerics.smooth import safe_divide
 from granum.streams.from_materials import taken_up_name
@@ -21,6 +23,10 @@ from granum.streams.units import Unit
 
 TOO_FULL = (
     "The inclusions would hold more liquor than there is: give a smaller 'inclusion_fraction' or more liquor."
+)
+RUN_DOWN = (
+    "In this liquor the crystals no longer grow, so that it does not tell the rate at which they shut liquor "
+    "in: give the size from which they do, by 'onset_size'."
 )
 
 
@@ -35,20 +41,28 @@ class UptakeFigures(NamedTuple):
 
     impurity_lattice: MassFraction
     impurity_inclusions: MassFraction
+    inclusion_onset_size: Distance
+    inclusion_fraction_mean: InclusionShare
     impurity_fraction_product: MassFraction
     impurity_fraction_liquor: MassFraction
     purification_factor: PositiveNumber
 
 
 class Shared(NamedTuple):
-    """Impurity in lattice and inclusions, each liquid species in the crystals and in the
-    liquor (kg/s), and who is who.
+    """Shares of the impurity in the lattice and of the remaining liquor in inclusions, impurity in both and
+    each liquid species in the crystals and in the liquor (kg/s), how the inclusions are spread over the
+    sizes, the size they begin at, their share of all crystals, and who is who.
     """
 
+    lattice_share: Any
+    liquor_share: Any
     lattice: Any
     shut_in: Any
     within: Any
     left: Any
+    spread: Any
+    onset: Any
+    mean: Any
     impurity: int
     homes: tuple[int | None, ...]
     found: Roles
@@ -56,11 +70,12 @@ class Shared(NamedTuple):
 
 @equipment(
     "impurity_uptake",
-    source="iupac1997; nyvlt1995",
+    source="iupac1997; doerner1925; denbigh1966; carlson1958",
     title="Impurity that crystals take up from their mother liquor",
     equation=(
         r"\frac{\dot m_{i,c}}{\dot m_{s,c}} = D\,\frac{\dot m_{i,l}}{\dot m_{s,l}},\quad \dot V_{incl} = "
-        r"\frac{\varphi}{1-\varphi}\,\frac{\dot m_c}{\rho_c}"
+        r"\sum_L\frac{\varphi(L)}{1-\varphi(L)}\,\frac{\dot m_c(L)}{\rho_c},\quad \varphi(L) = "
+        r"\varphi\left(1 - \min(1, L_i/L)^3\right)"
     ),
 )
 class ImpurityUptake(Unit):
@@ -69,16 +84,22 @@ class ImpurityUptake(Unit):
 
     Stands behind any crystallizer. What crystals hold is a solid species of its own, ``NAME in crystals``,
     which filter, wash and dryer carry along; only what adheres can be washed off. Lattice: the homogeneous
-    distribution of a mixed vessel, impurity per solute in the crystal over that in the liquor. Inclusions
-    hold all species of the liquor, so that the mixture needs each of them in crystals. Crystals that came
-    with the feed count as grown here; a second one of the same figures changes nothing. The size of the
-    crystals and their growth rate are not counted: give what was measured at those of the plant.
-    What stays dissolved where a dryer dries the cake needs its plain name among the solids too. Nývlt and
-    Ulrich (1995) were not opened; the homogeneous law is that of the Gold Book.
+    distribution of a mixed vessel, impurity per solute in the crystal over that in the liquor, or for a batch
+    the logarithmic one, in which each layer keeps what the liquor had when it grew. Inclusions hold all
+    species of the liquor, so that the mixture needs each of them in crystals. Their fraction is that of what
+    grows once a crystal is larger than the onset, a measured size or the one that the growth rate in this
+    liquor leaves clear; without an onset, of all that grew. Crystals that came with the feed count as grown
+    here; a second one of the same figures changes nothing. What stays dissolved where a dryer dries the cake
+    needs its plain name among the solids too. Carlson, Denbigh and White, Doerner and Hoskins were not
+    opened; both laws of distribution are those of the Gold Book.
     """
 
     distribution_coefficient_solution: Ratio
     inclusion_fraction: InclusionShare | None = eqx.field(kw_only=True, default=None)
+    inclusion_onset: Annotated[Any, Law("inclusion_onset")] | None = eqx.field(kw_only=True, default=None)
+    distribution_law: Literal["homogeneous", "logarithmic"] = eqx.field(
+        kw_only=True, static=True, default="homogeneous"
+    )
     impurity: str = eqx.field(kw_only=True, static=True, default="")
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
@@ -126,26 +147,69 @@ class ImpurityUptake(Unit):
         solid = feed.solid_by_species
         had = jnp.stack([jnp.zeros(()) if home is None else solid[home] for home in homes])
         both = feed.liquid + had
-        crystals = solid[found.solid]
-        bound = self.distribution_coefficient_solution * found.solute_fraction * crystals
-        lattice = both[impurity] * safe_divide(bound, both[found.solute] + bound, 0.0)
+        crystals, T, sizes = solid[found.solid], feed.temperature, feed.solid[found.solid]
+        bound = self._lattice_share(found.solute_fraction * crystals, both[found.solute])
+        lattice = bound * both[impurity]
         liquor = both.at[impurity].add(-lattice)
-        share = jnp.zeros(())
+        share, onset, mean = jnp.zeros(()), jnp.zeros(()), jnp.zeros(())
+        spread = safe_divide(sizes, crystals, 0.0)
         if self.inclusion_fraction is not None:
-            T, phi = feed.temperature, self.inclusion_fraction
-            room = phi / (1.0 - phi) * crystals / mixture.densities("solids", T)[found.solid]
+            density = mixture.densities("solids", T)[found.solid]
+            onset = self._onset(both, found, feed, density, crystals)
+            length = jnp.asarray(mixture.sizes).reshape((-1,) + (1,) * (sizes.ndim - 1))
+            phi = inclusion_fraction_mean.function(length, onset, self.inclusion_fraction)
+            rooms = phi / (1.0 - phi) * sizes / density
+            room = jnp.sum(rooms)
             share = safe_divide(room, jnp.sum(liquor / mixture.densities("liquids", T)), 0.0)
             unsolved(share <= 1.0, type(self).card, reason=TOO_FULL)
+            spread = safe_divide(rooms, room, spread)
+            mean = safe_divide(room, room + crystals / density, 0.0)
         within = (share * liquor).at[impurity].add(lattice)
-        return Shared(lattice, share * liquor[impurity], within, both - within, impurity, homes, found)
+        return Shared(
+            bound,
+            share,
+            lattice,
+            share * liquor[impurity],
+            within,
+            both - within,
+            spread,
+            onset,
+            mean,
+            impurity,
+            homes,
+            found,
+        )
+
+    def _lattice_share(self, crystallized: Any, dissolved: Any) -> Any:
+        """Of all the impurity, that which the lattice of the crystals holds."""
+        shares = impurity_share_crystallized.function(
+            self.distribution_coefficient_solution,
+            safe_divide(crystallized, crystallized + dissolved, 0.0),
+        )
+        even = self.distribution_law == "homogeneous"
+        return shares.impurity_share_homogeneous if even else shares.impurity_share_logarithmic
+
+    def _onset(self, liquor: Any, found: Roles, feed: Stream, crystal_density: Any, crystals: Any) -> Any:
+        """Size up to which the crystals grew clear, m."""
+        if self.inclusion_onset is None:
+            return jnp.zeros(())
+        onset = self.inclusion_onset(
+            safe_divide(liquor[found.solute], liquor[found.solvent], 0.0),
+            feed.temperature,
+            feed.liquid_density,
+            crystal_density,
+        )
+        unsolved((onset < LARGEST) | (crystals <= 0.0), type(self).card, reason=RUN_DOWN)
+        return onset
 
     def outlets(self, inside: Shared, feed: Stream) -> TakenUp:
         crystal = feed.solid[inside.found.solid]
-        spread = safe_divide(crystal, jnp.sum(crystal), 0.0)
+        even = safe_divide(crystal, jnp.sum(crystal), 0.0)
         solid, liquid = feed.solid, feed.liquid
         for place, home in enumerate(inside.homes):
             if home is not None:
-                solid = solid.at[home].set(inside.within[place] * spread)
+                bound = inside.lattice if place == inside.impurity else 0.0
+                solid = solid.at[home].set(bound * even + (inside.within[place] - bound) * inside.spread)
                 liquid = liquid.at[place].set(inside.left[place])
         return TakenUp(feed.replace(solid=solid, liquid=liquid))
 
@@ -156,11 +220,14 @@ class ImpurityUptake(Unit):
         lattice, shut_in = (safe_divide(x, whole, 0.0) for x in (inside.lattice, inside.shut_in))
         solute = found.solute_fraction * crystals + inside.within[found.solute]
         # impurity per solute in the crystals over that in the liquor, without dividing by the impurity
-        bound = self.distribution_coefficient_solution * found.solute_fraction * crystals
-        kept = safe_divide(bound + inside.within[found.solute], solute, 1.0)
+        f, taken = inside.lattice_share, inside.liquor_share
+        over = safe_divide(f + taken * (1.0 - f), (1.0 - taken) * (1.0 - f), 1.0)
+        kept = safe_divide(over * inside.left[found.solute], solute, 1.0)
         return UptakeFigures(
             lattice,
             shut_in,
+            inside.onset,
+            inside.mean,
             lattice + shut_in,
             product.liquid_fractions[place],
             1.0 / jnp.maximum(kept, 1e-12),

@@ -238,4 +238,13 @@ def fit_together(tests: Sequence[BatchKinetics]) -> Fit:
     )
     held = [test.ranges() for test in tests]
     ranges = {n: (min(r[n][0] for r in held), max(r[n][1] for r in held)) for n in held[0]}
-    return replace(found, defaults=tests[0].defaults(), ranges=ranges)
+    return replace(found, derived=_spread(found), defaults=tests[0].defaults(), ranges=ranges)
+
+
+def _spread(found: Fit) -> dict[str, Any]:
+    """The coefficients with the intervals of their logarithms, which keep them positive."""
+    out = dict(found.derived)
+    for name in out:
+        low, high = found.parameters[f"log_{name}"].interval_95
+        out[name] = replace(out[name], interval_95=(float(np.exp(low)), float(np.exp(high))))
+    return out
