@@ -214,6 +214,10 @@ from granum.drying.formulas.diffusion import (
     moisture_ratio_sphere as moisture_ratio_sphere,
     volume_ratio as volume_ratio,
 )
+from granum.drying.formulas.flights import (
+    flight_filling_design as flight_filling_design,
+    flight_repose_angle as flight_repose_angle,
+)
 from granum.drying.formulas.freeze_drying import (
     PrimaryDrying as PrimaryDrying,
     SlabFreezeDrying as SlabFreezeDrying,
