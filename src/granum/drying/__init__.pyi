@@ -91,6 +91,7 @@ from granum.drying.equipment.flash import (
 )
 from granum.drying.equipment.fluid_bed import (
     FluidBedDryer as FluidBedDryer,
+    FluidBedFigures as FluidBedFigures,
 )
 from granum.drying.equipment.freeze import (
     FreezeDried as FreezeDried,

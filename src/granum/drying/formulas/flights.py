@@ -64,8 +64,8 @@ def flight_filling_design(
     begin to shower: with less the gas meets less falling solid, with more the rest rolls at the bottom.
 
     Half of the flights, and one, hold what one holds there: a flight of a depth with an upright lip, filled
-    to the edge of its lip (our own geometry, the shell behind it taken flat). The form is recalled; Baker's paper, which
-    gives it, was opened in part.
+    to the edge of its lip (our own geometry, the shell behind it taken flat). The form is recalled; Baker's
+    paper, which gives it, was opened in part.
 
     By hand: 14 flights of 0.17 m with lips of 0.08 m in a drum of 1.7 m, 40 degrees: a = 0.0136 + 0.0121 m²,
     7.5 · 0.0257/2.270 = 0.085.
