@@ -91,6 +91,7 @@ from granum.drying.equipment.flash import (
 )
 from granum.drying.equipment.fluid_bed import (
     FluidBedDryer as FluidBedDryer,
+    FluidBedFigures as FluidBedFigures,
 )
 from granum.drying.equipment.freeze import (
     FreezeDried as FreezeDried,
@@ -213,6 +214,10 @@ from granum.drying.formulas.diffusion import (
     moisture_ratio_product as moisture_ratio_product,
     moisture_ratio_sphere as moisture_ratio_sphere,
     volume_ratio as volume_ratio,
+)
+from granum.drying.formulas.flights import (
+    flight_filling_design as flight_filling_design,
+    flight_repose_angle as flight_repose_angle,
 )
 from granum.drying.formulas.freeze_drying import (
     PrimaryDrying as PrimaryDrying,

@@ -4,8 +4,9 @@ through the dense phase.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -13,10 +14,28 @@ from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Area, Fraction, Law, Mass, Temperature, VoidFraction, Within
+from granum.core.kinds import (
+    Area,
+    AreaOrZero,
+    Fraction,
+    HeatTransferCoefficient,
+    HumidityRatio,
+    Law,
+    Mass,
+    MoistureDryBasis,
+    Power,
+    Pressure,
+    Ratio,
+    SignedMassFlow,
+    Temperature,
+    TemperatureDifference,
+    Time,
+    VoidFraction,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.drying.gas_solid.cells import Contact, Inlet, Network, Profile
-from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, ready, sized
+from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, Through, ready, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
@@ -28,18 +47,42 @@ from granum.fluidization.formulas.bubbles import (
     bubble_exchange_rate_cloud,
     bubble_rise_velocity_davidson_harrison,
 )
-from granum.fluidization.formulas.heat import nusselt_number_gunn
+from granum.fluidization.formulas.heat import heat_transfer_coefficient_zabrodsky, nusselt_number_gunn
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
+from granum.materials.formulas.water import water_boiling_temperature
 from granum.streams.atmosphere import VENTED
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
-from granum.streams.utilities import AREA, HEATED, heated
+from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, heated
 
 TABLE = NOTES.format(table="IV.16")
+COILS = "kunii1991, ch. 13; tubes of 4 cm two diameters apart: our own estimate"
 DISTRIBUTOR = 0.3  # of the pressure drop of the bed
 AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
+BUNDLE = 0.7  # of the greatest heat transfer coefficient, on tubes in a bundle
+LEAST = 1.0  # K between steam and bed, below which coils would only grow
+
+
+class FluidBedFigures(NamedTuple):
+    """Figures of a fluidized-bed dryer."""
+
+    # negative where the solid came in drier than it is in equilibrium with the gas
+    evaporation_rate: SignedMassFlow
+    moisture_dry_basis: MoistureDryBasis
+    moisture_dry_basis_highest: MoistureDryBasis
+    temperature_product: Temperature
+    temperature_product_highest: Temperature
+    temperature_exhaust: Temperature
+    humidity_ratio: HumidityRatio
+    relative_humidity: Ratio
+    superheat: TemperatureDifference
+    solid_holdup: Mass
+    residence_time: Time
+    heat_duty: Power
+    area_coil: AreaOrZero | None  # of a bed with coils
+    heat_transfer_coefficient_coil: HeatTransferCoefficient | None
 
 
 @equipment(
@@ -54,10 +97,11 @@ class FluidBedDryer(CellDryer):
     With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed
     times, so that some leave as they came. With more cells solid flows along the bed through that many
     tanks in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its
-    way up, unless it is given. ``coil_duty`` is heat by coils in the bed, alike in all cells. With
-    ``entrainment`` the exhaust takes fines along by their elutriation constant, as
-    ``fluidization.fluidized_bed`` does; else all solid overflows. An ``explosion_vent`` is that of the
-    chamber.
+    way up, unless it is given. ``coil_duty`` is heat by coils in the bed, alike in all cells; their area
+    follows from steam of ``pressure_steam``, the bed around them and 70 % of Zabrodsky's greatest
+    coefficient, the resistance of steam and wall left out. With ``entrainment`` the exhaust takes fines along
+    by their elutriation constant, as ``fluidization.fluidized_bed`` does; else all solid overflows. An
+    ``explosion_vent`` is that of the chamber.
     """
 
     area: Area
@@ -71,6 +115,7 @@ class FluidBedDryer(CellDryer):
     entrainment: bool = False
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
     coil_duty: LostHeat = 0.0
+    pressure_steam: Pressure = 4e5
 
     limits: ClassVar[Limits] = (
         CellDryer.limits
@@ -82,6 +127,18 @@ class FluidBedDryer(CellDryer):
             "inlet": Limit("gas temperature at the inlet", 323.15, 473.15, "K", TABLE),
             "time": Limit("residence time of the solid", 120.0, 3600.0, "s", TABLE),
             "capacity": Limit("water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE),
+            "warmer": Limit(
+                "steam in the coils above the hottest bed", 5.0, math.inf, "delta_degC", COILS, quiet=True
+            ),
+            "room": Limit("area of the coils per volume of settled bed", 0.0, 20.0, "1/m", COILS, quiet=True),
+            "grains": Limit(
+                "size of the grains for which the coefficient of the coils is known",
+                4e-5,
+                5e-4,
+                "m",
+                "zabrodsky1966",
+                quiet=True,
+            ),
         }
         | VENTED
     )
@@ -198,11 +255,42 @@ class FluidBedDryer(CellDryer):
         area = float(gas.gas_volume_flow / gas_velocity)
         return sized(cls(area, 200.0 * area, kinetics, **more), "mass", moisture_outlet, 1e-3, 1e7, feed, gas)
 
+    @property
+    def with_coils(self) -> bool:
+        return not isinstance(self.coil_duty, float) or self.coil_duty > 0.0
+
+    @property
+    def temperature_steam(self) -> Any:
+        return water_boiling_temperature(self.pressure_steam)
+
+    def figures(
+        self, inside: Through, outlets: Dried, feed: Stream, gas: Stream, **_others: Any
+    ) -> FluidBedFigures:
+        whole = super().figures(inside, outlets, feed, gas)
+        if not self.with_coils:
+            return FluidBedFigures(*whole, area_coil=None, heat_transfer_coefficient_coil=None)
+        coefficient = BUNDLE * heat_transfer_coefficient_zabrodsky.function(
+            solid_diameter(feed), feed.solid_density, gas.gas_conductivity
+        )
+        warmer = jnp.maximum(self.temperature_steam - inside.profile.gas_temperature, LEAST)
+        return FluidBedFigures(
+            *whole,
+            area_coil=jnp.mean(self.coil_duty / (coefficient * warmer)),
+            heat_transfer_coefficient_coil=coefficient,
+        )
+
     def measured(
-        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+        self, inside: Through, outlets: Dried, figures: Any, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
+        found = super().measured(inside, outlets, figures, feed, gas)
+        if figures.area_coil is not None:
+            hottest = jnp.max(inside.profile.gas_temperature)
+            there = self.coil_duty > 0.0
+            found["warmer"] = jnp.where(there, self.temperature_steam - hottest, 0.0)
+            found["grains"] = jnp.where(there, solid_diameter(feed), 0.0)
+            found["room"] = figures.area_coil / (self.area * self.height(feed))
         U = gas.gas_volume_flow / self.area
-        return super().measured(inside, outlets, figures, feed, gas) | {
+        return found | {
             "fluidized": U / self.minimum_velocity(feed, gas),
             "velocity": U,
             "inlet": gas.temperature,
@@ -215,9 +303,9 @@ class FluidBedDryer(CellDryer):
         return (1.0 + DISTRIBUTOR) * self.mass * STANDARD_GRAVITY / self.area
 
     def drawn(
-        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+        self, inside: Through, outlets: Dried, figures: Any, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
-        coils = heated(self.coil_duty, figures.temperature_product_highest)
+        coils = heated(self.coil_duty, self.temperature_steam - HEAT_APPROACH)
         return super().drawn(inside, outlets, figures, feed, gas) | coils | {"area_installed": self.area}
 
 

@@ -100,8 +100,9 @@ class FreezeDryer(Unit):
     The feed's flow is the mean over the cycle and fixes how many vials are in a batch. Its dry solid per
     volume is the concentration. What does not freeze, ``unfrozen_moisture`` per dry solid, stays for
     secondary drying, which ends at ``moisture_outlet``. ``heat_duty_shelf`` and ``heat_duty_condenser`` are
-    means over the cycle of the heats of sublimation and desorption; melted condenser ice leaves at the feed's
-    temperature.
+    means over the cycle of the heats of sublimation and desorption, and ``energy_per_water`` is the heat
+    alone: that of the whole line adds the electricity which makes the cold. Melted condenser ice
+    leaves at the feed's temperature.
     """
 
     pressure_chamber: Pressure

@@ -9,17 +9,20 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import (
+    Distance,
     Fraction,
     HeatTransferCoefficient,
     Law,
     Length,
     PositiveNumber,
+    Ratio,
     Temperature,
     TurningSpeed,
     Within,
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
+from granum.drying.formulas.flights import flight_filling_design, flight_repose_angle
 from granum.drying.formulas.rotary import (
     residence_time_friedman_marshall,
     shaft_power_rotary_drum,
@@ -40,22 +43,27 @@ from granum.streams.utilities import HEAT_APPROACH, HEATED, driven, heated
 TABLE = NOTES.format(table="IV.6")
 SHELL, STEEL = 0.01, 7850.0  # thickness of the shell with flights over the diameter, kg/m³
 LEAST = 1e-12  # kg/s of solid, of a drum that runs empty
+HEAPED = 0.6  # share of a heap that is solid
+THINNEST = 0.03  # filling of the thinnest drums in which the exchange by volume was measured
 
 
 @equipment(
     "rotary_dryer",
-    source="friedman1949; friedman1949part2; treybal1980, ch. 12; ap42_1995",
+    source="friedman1949; friedman1949part2; treybal1980, ch. 12; baker1988; ap42_1995",
     title="Rotary dryer",
 )
 class RotaryDryer(CellDryer):
     """Drum with flights: time of passage after Friedman and Marshall, heat by the volume, tanks in series for
     the spread of residence times.
 
-    ``wall_coefficient`` adds heat from a steam-heated wall over the wetted share of the shell (the conductive
-    drum). With ``entrainment`` the exhaust takes along fines that the flights shower once through the gas,
-    evenly along the drum: what falls slower than the gas flows, and has not settled before the gas leaves. A
-    measured ``dusting_fraction`` of the feed, the finest of it, takes the place of this estimate; ammonium
-    sulfate dryers lose 2 to 3 % (AP-42, recalled).
+    The heat by the volume is that of a drum whose flights are full. Say how many there are (``flight_count``)
+    and, unless they are a tenth of the diameter deep without a lip, what they are like: with less solid than
+    their design filling the gas meets less, and takes part in proportion. Where they are not described this
+    begins at the 3 % of the thinnest drums measured. ``wall_coefficient`` adds heat from a steam-heated wall
+    over the wetted share of the shell (the conductive drum). With ``entrainment`` the exhaust takes along
+    fines that the flights shower once through the gas, evenly along the drum: what falls slower than the gas
+    flows, and has not settled before the gas leaves. A measured ``dusting_fraction`` of the feed, the finest
+    of it, takes the place of this estimate; ammonium sulfate dryers lose 2 to 3 % (AP-42, recalled).
     """
 
     length: Length
@@ -69,6 +77,10 @@ class RotaryDryer(CellDryer):
     wall_coefficient: HeatTransferCoefficient | None = None
     wall_temperature: Temperature = 423.15
     wetted_share: Fraction = 0.15
+    flight_count: Annotated[PositiveNumber, Within(1, 500)] | None = None
+    flight_depth: Length | None = None
+    flight_lip: Distance = 0.0
+    repose_friction: Ratio = 0.8
     heat_loss: LostHeat = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 40
@@ -77,6 +89,13 @@ class RotaryDryer(CellDryer):
 
     limits: ClassVar[Limits] = CellDryer.limits | {
         "filled": Limit("share of the drum filled with solid", 0.03, 0.15, "dimensionless", "friedman1949"),
+        "loaded": Limit(
+            "solid in the drum over what its flights are designed for",
+            0.5,
+            1.25,
+            "dimensionless",
+            "baker1988",
+        ),
         "flux": Limit("gas per cross-section of the drum", 0.5, 5.0, "kg/(m^2*s)", "treybal1980, ch. 12"),
         "slender": Limit("length over diameter of the drum", 4.0, 10.0, "dimensionless", "perry2008, ch. 12"),
         "inlet": Limit("gas temperature at the inlet", 373.15, 1173.15, "K", TABLE),
@@ -123,6 +142,19 @@ class RotaryDryer(CellDryer):
             against,
         )
 
+    def filled(self, held: Any, feed: Stream) -> Any:
+        """Share of the drum that so much dry solid fills, heaped."""
+        return held / (feed.solid_density * HEAPED) / self.extent()
+
+    @property
+    def design_filling(self) -> Any:
+        """Filling from which on more solid brings no more exchange."""
+        if self.flight_count is None:
+            return THINNEST
+        depth = 0.1 * self.diameter if self.flight_depth is None else self.flight_depth
+        angle = flight_repose_angle.function(self.repose_friction, self.diameter, self.rotation_speed)
+        return flight_filling_design.function(self.diameter, self.flight_count, depth, self.flight_lip, angle)
+
     def contact(self, feed: Stream, gas: Stream) -> Contact:
         n, F = self.cells, feed.solid_by_size
         time = self.passage(feed, gas)
@@ -136,7 +168,8 @@ class RotaryDryer(CellDryer):
 
         Ua = in_steam(by_volume, gas.gas_flow / self.section, gas)
         # every class takes heat in proportion to its mass
-        exchange = Ua * self.extent() / held
+        showered_share = jnp.minimum(self.filled(held, feed) / self.design_filling, 1.0)
+        exchange = Ua * self.extent() * showered_share / held
         wall = 0.0
         if self.wall_coefficient is not None:
             wall = self.wall_coefficient * self.wetted_share * pi * self.diameter * self.length / held
@@ -173,13 +206,19 @@ class RotaryDryer(CellDryer):
     def measured(
         self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed, gas) | {
-            "filled": figures.solid_holdup / (feed.solid_density * 0.6) / self.extent(),
-            "flux": gas.gas_flow / self.section,
-            "slender": jnp.asarray(self.length / self.diameter),
-            "inlet": gas.temperature,
-            "capacity": self.hourly(figures),
-        }
+        filled = self.filled(figures.solid_holdup, feed)
+        loaded = {} if self.flight_count is None else {"loaded": filled / self.design_filling}
+        return (
+            super().measured(inside, outlets, figures, feed, gas)
+            | loaded
+            | {
+                "filled": filled,
+                "flux": gas.gas_flow / self.section,
+                "slender": jnp.asarray(self.length / self.diameter),
+                "inlet": gas.temperature,
+                "capacity": self.hourly(figures),
+            }
+        )
 
     def drawn(
         self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
