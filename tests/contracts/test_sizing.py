@@ -106,3 +106,9 @@ def test_what_stands_against_a_size_is_told() -> None:
     deep = gr.size("filtration.gravity_filter", slurry_depth="50 m", capacity_use=0.9)
     assert "does not hold: cake thickness in a gravity filter." in doubts(deep)
     assert not doubts(gr.size("filtration.gravity_filter", capacity_use=0.9))
+
+
+def test_a_size_at_which_there_is_no_answer_is_no_size() -> None:
+    """A membrane beyond the liquid that there is has figures, but no answer: they are not looked at."""
+    run = gr.size("filtration.ultrafiltration", volume_concentration_factor=10.0)
+    assert 250.0 < run.found["ultrafiltration.area"] < 400.0

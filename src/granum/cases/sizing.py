@@ -25,6 +25,7 @@ from granum.core.conversion import convert
 from granum.core.errors import ApplicabilityError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
+from granum.flowsheet.findings import unanswered
 from granum.flowsheet.run import Line, Run
 from granum.reports.quantities import value_text
 from granum.studies.inverse import reached_often, unreached
@@ -210,7 +211,7 @@ def _looked_at(p: Parameter, start: float) -> np.ndarray:
 
 
 def _told(line: Line, name: str, setting: str, figure: str, x: np.ndarray) -> np.ndarray:
-    """A figure of the unit at each setting, in one pass."""
+    """A figure of the unit at each setting, in one pass; not a number where the unit has no answer."""
     feeds = {
         link.target.partition(".")[2]: line.sheet.feeds[link.name]
         for link in line.sheet.links
@@ -220,6 +221,8 @@ def _told(line: Line, name: str, setting: str, figure: str, x: np.ndarray) -> np
 
     def one(value: Any) -> Any:
         trial = eqx.tree_at(lambda u: getattr(u, setting), unit, value)
-        return jnp.asarray(getattr(trial.operate(**feeds).figures, figure), dtype=float)
+        found = trial.operate(**feeds)
+        value = jnp.asarray(getattr(found.figures, figure), dtype=float)
+        return jnp.where(unanswered(found.records), jnp.nan, value)
 
     return np.asarray(jax.jit(jax.vmap(one))(jnp.asarray(x)))

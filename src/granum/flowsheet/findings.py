@@ -84,7 +84,7 @@ def findings(line: Flowsheet, solution: Solution) -> Findings:
         mass=mass,
         energy=energy,
         by_component=by_component,
-        lost=jnp.stack([_lost(solution.records[name]) for name in line.order]),
+        lost=jnp.stack([unanswered(solution.records[name]) for name in line.order]),
         figures=jnp.stack([_possible_figures(line, solution, name) for name in line.order]),
     )
 
@@ -136,7 +136,8 @@ def _saturations(streams: Stream, least: Any) -> Any:
     )
 
 
-def _lost(records: list[flags.Record]) -> Any:
+def unanswered(records: list[flags.Record]) -> Any:
+    """Whether a formula inside a unit said that there is no value, or an iteration did not converge."""
     return jnp.any(jnp.stack([jnp.any(r.mask) for r in records if r.bit & WRONG] or [jnp.asarray(False)]))
 
 

@@ -58,7 +58,10 @@ from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, heated
 
 TABLE = NOTES.format(table="IV.16")
-COILS = "kunii1991, ch. 13; tubes of 4 cm two diameters apart: our own estimate"
+COILS = (
+    "kunii1991, ch. 13; tubes of 4 cm two diameters apart, and 70 % of the greatest coefficient on a bundle "
+    "of them, are our own estimate"
+)
 DISTRIBUTOR = 0.3  # of the pressure drop of the bed
 AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
 BUNDLE = 0.7  # of the greatest heat transfer coefficient, on tubes in a bundle

@@ -94,7 +94,7 @@ class RotaryDryer(CellDryer):
             0.5,
             1.25,
             "dimensionless",
-            "baker1988",
+            "kelly1977, the design filling only: how far a drum may stray from it is our own estimate",
         ),
         "flux": Limit("gas per cross-section of the drum", 0.5, 5.0, "kg/(m^2*s)", "treybal1980, ch. 12"),
         "slender": Limit("length over diameter of the drum", 4.0, 10.0, "dimensionless", "perry2008, ch. 12"),
