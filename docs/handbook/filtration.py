@@ -113,6 +113,14 @@ thin_slurry = {
 sunk_half = f.filtration_time_falling_head("25 cm", "50 cm", **thin_slurry)
 sunk = f.filtration_time_falling_head("49 cm", "50 cm", **thin_slurry)
 sunk_deep = f.filtration_time_falling_head("98 cm", "100 cm", **thin_slurry)
+sunk_settled = f.filtration_time_settling(
+    "50 cm",
+    "5 mm/s",
+    solids_volume_fraction=0.0111,
+    void_fraction=0.42,
+    cake_resistance="1e9 m/kg",
+    medium_resistance="1e9 1/m",
+)
 
 # ---- wash
 left_good = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=50)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
@@ -19,30 +20,59 @@ def filtered(**inputs: object):
     return run, lambda name: float(run.figure(f"gravity_filter.{name}"))
 
 
-def test_level_sinks_to_the_cake_as_darcy_says() -> None:
-    """Darcy's law in time, head minus resistance of the growing cake, until the level meets it."""
-    run, of = filtered()
+@pytest.mark.parametrize("settles", [0.0, 1e-5, 1e-4, 5e-3])
+def test_level_sinks_to_the_cake_as_darcy_says(settles: float) -> None:
+    """Darcy's law in time, head minus resistance of a cake that grows by filtration and settling, until all
+    of it lies; then clear liquid through the whole cake.
+    """
+    run, of = filtered(settling_velocity=f"{settles} m/s")
     feed = run.streams["feed"]
-    depth, alpha, medium = 0.5, 1e9, 1e9
-    share = float(feed.solids_volume_fraction)
-    end = share * depth / (1.0 - 0.42)
+    depth, alpha, medium, packed = 0.5, 1e9, 1e9, 1.0 - 0.42
+    share, density = float(feed.solids_volume_fraction), float(feed.solid_density)
+    end, cake = share * depth / packed, share * depth * density
     assert of("cake_thickness") == pytest.approx(end, rel=1e-9)
-    cake = share * depth * float(feed.solid_density)
+    weight = float(feed.liquid_density) * GRAVITY / float(feed.liquid_viscosity)
 
-    def sinks(_t: float, filtrate: list[float]) -> list[float]:
-        mass = cake * filtrate[0] / (depth - end)
-        head = float(feed.liquid_density) * GRAVITY * (depth - filtrate[0])
-        return [head / (float(feed.liquid_viscosity) * (alpha * mass + medium))]
+    def moves(_t: float, now: list[float]) -> list[float]:
+        level, mass = now
+        sinks = weight * level / (alpha * min(mass, cake) + medium)
+        rises = packed * share * density / (packed - share) * (sinks + settles)
+        return [-sinks, rises]
 
-    def meets(_t: float, filtrate: list[float]) -> float:
-        return filtrate[0] - (depth - end)
+    def all_lies(_t: float, now: list[float]) -> float:
+        return now[1] - cake
 
-    meets.terminal = True  # type: ignore[attr-defined]
-    found = solve_ivp(sinks, (0.0, 1e6), [0.0], events=meets, rtol=1e-9, atol=1e-12)
-    assert of("formation_time") == pytest.approx(found.t_events[0][0], rel=1e-6)
+    all_lies.terminal = True  # type: ignore[attr-defined]
+    found = solve_ivp(moves, (0.0, 1e6), [depth, 0.0], events=all_lies, rtol=1e-10, atol=1e-12)
+    level = found.y_events[0][0][0]
+    rest = (alpha * cake + medium) / weight * math.log(level / end)
+    assert of("formation_time") == pytest.approx(found.t_events[0][0] + rest, rel=1e-7)
     assert of("cycle_time") == pytest.approx(of("formation_time") + 1200.0)
     flow = float(feed.slurry_volume_flow)
     assert of("area_required") == pytest.approx(flow * of("cycle_time") / depth)
+
+
+def test_what_settles_ahead_stands_in_the_way() -> None:
+    """Without settling the published integral; settled at once, the whole cake from the beginning."""
+    grains = {"solids_volume_fraction": 0.02, "void_fraction": 0.42, "cake_resistance": 1e9}
+    speeds = np.array([0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e2])
+    times = np.asarray(gr.filtration.filtration_time_settling(0.5, speeds, medium_resistance=1e9, **grains))
+    end, load = 0.02 / 0.58 * 0.5, 0.58 * 0.02 * 2650.0 / 0.56
+    slow = gr.filtration.filtration_time_falling_head(0.5 - end, 0.5, 1e9, 1e9, load)
+    at_once = 1e-3 / (998.0 * GRAVITY) * (1e9 * 0.02 * 0.5 * 2650.0 + 1e9) * math.log(0.58 / 0.02)
+    assert times[0] == pytest.approx(slow, rel=1e-9)
+    assert times[-1] == pytest.approx(at_once, rel=1e-4)
+    assert np.all(np.diff(times) > 0.0)
+
+
+def test_grains_settle_by_their_size() -> None:
+    """Stokes: quartz of 20 µm in water of 20 °C, hindered by 2 % of solid, (1 - φ)^4.65."""
+    run, of = filtered(particle_diameter="20 um")
+    feed = run.streams["feed"]
+    alone = (float(feed.solid_density) - float(feed.liquid_density)) * GRAVITY * 4e-10
+    alone /= 18.0 * float(feed.liquid_viscosity)
+    crowd = (1.0 - float(feed.solids_volume_fraction)) ** 4.65
+    assert of("settling_velocity") == pytest.approx(alone * crowd, rel=0.02)
 
 
 def test_clear_liquid_falls_as_in_a_permeameter() -> None:

@@ -156,6 +156,7 @@ from granum.filtration.formulas.gas_filters import (
 from granum.filtration.formulas.gravity import (
     filtrate_depth_falling_head as filtrate_depth_falling_head,
     filtration_time_falling_head as filtration_time_falling_head,
+    filtration_time_settling as filtration_time_settling,
 )
 from granum.filtration.formulas.mass_balance import (
     cake_thickness as cake_thickness,

@@ -20,6 +20,7 @@ from granum.core.kinds import (
     MoistureDryBasis,
     PressureDrop,
     Ratio,
+    Speed,
     SurfaceTension,
     Time,
     VoidFraction,
@@ -32,14 +33,18 @@ from granum.filtration.formulas.deliquoring import (
     saturation_after_deliquoring,
     threshold_pressure_cake,
 )
-from granum.filtration.formulas.gravity import filtration_time_falling_head
+from granum.filtration.formulas.gravity import filtration_time_settling
 from granum.filtration.formulas.resistance import cake_permeability
 from granum.numerics.smooth import safe_divide
+from granum.particles.formulas.hindered import hindrance_richardson_zaki
+from granum.particles.formulas.numbers import reynolds_number
+from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.cakes import part_cake, solid_diameter
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import AREA, PUMPED, pumped
 
+PACKED = 1.0 - 1e-9
 THINNEST = 1e-9  # m of cake, so that a feed without solid gives numbers
 
 
@@ -60,6 +65,7 @@ class GravityFigures(NamedTuple):
     cycle_time: Time
     formation_time: Time
     filtrate_flow: VolumeFlow
+    settling_velocity: Speed
     pressure_drop: PressureDrop
     cake_saturation: Fraction
     moisture_dry_basis: MoistureDryBasis
@@ -67,7 +73,7 @@ class GravityFigures(NamedTuple):
 
 class Batch(NamedTuple):
     """One filling: cake and dry cake per area, time until the level meets the cake, whole cycle, area that
-    the feed needs, saturation at discharge.
+    the feed needs, saturation at discharge, speed at which the solid settles ahead.
     """
 
     thickness: Any
@@ -76,6 +82,7 @@ class Batch(NamedTuple):
     cycle: Any
     area: Any
     saturation: Any
+    velocity: Any
 
 
 @equipment(
@@ -83,19 +90,21 @@ class Batch(NamedTuple):
     source="darcy1856; ruth1935; wakeman2005",
     title="Gravity filter",
     equation=(
-        r"t = \frac{\eta}{\rho_l\,g}\left[\left(\alpha\,W\,h_0 + R_s\right)\ln\frac{h_0}{Z}"
-        r" - \alpha\,W\left(h_0 - Z\right)\right],\qquad Z = \frac{\varphi\,h_0}{1-\varepsilon}"
+        r"\frac{dh}{dt} = -\frac{\rho_l\,g\,h}{\eta\left(\alpha\,W + R_s\right)},\quad "
+        r"\frac{dW}{dt} = \frac{(1-\varepsilon)\,\varphi\,\rho_s}{1-\varepsilon-\varphi}"
+        r"\left(v_s - \frac{dh}{dt}\right),\quad h \to \frac{\varphi\,h_0}{1-\varepsilon}"
     ),
 )
 class GravityFilter(Unit):
     """Slurry is poured on a medium in one depth and filters under its own falling head until the level meets
     the cake, which then drains by its own weight and is shoveled off.
 
-    The head above the medium is that of the liquid, the resistance of the cake does not change with it and
-    the solid does not settle ahead. The cake drains above the height that capillarity holds, so that a fine
-    one leaves saturated. In a line it stands for several filters working in turn. The cake is checked against
-    the thickest of a Nutsche, the head against the pressure that a vacuum gives: deeper, another filter is
-    meant.
+    The head above the medium is that of the liquid, and the resistance of the cake does not change with it.
+    Meanwhile the solid settles on the cake, as fast as was measured or as grains of its surface–volume
+    diameter do; fine or flocculated solid is better measured. The cake drains above the height that
+    capillarity holds, so that a fine one leaves saturated. In a line it stands for several filters working in
+    turn. The cake is checked against the thickest of a Nutsche, the head against the pressure that a vacuum
+    gives: deeper, another filter is meant.
     """
 
     area: Area
@@ -109,6 +118,7 @@ class GravityFilter(Unit):
     solids_recovery: Fraction = 1.0
     surface_tension: SurfaceTension = 0.072
     particle_diameter: Length | None = None
+    settling_velocity: Speed | None = None
 
     limits: ClassVar[Limits] = {
         "capacity": Limit("share of the filtration capacity in use", 0.0, 1.0, "dimensionless", "ruth1935"),
@@ -146,17 +156,33 @@ class GravityFilter(Unit):
         held = threshold_pressure_cake(diameter, self.void_fraction, self.surface_tension) / weight
         return 1.0 - (1.0 - drained) * jnp.maximum(1.0 - held, 0.0)
 
+    def settling(self, feed: Stream) -> Any:
+        """Speed at which the solid settles in the slurry as it is poured, m/s: as measured, else of grains of
+        its surface–volume diameter.
+        """
+        if self.settling_velocity is not None:
+            return self.settling_velocity
+        diameter = solid_diameter(feed, self.particle_diameter)
+        liquid = feed.liquid_density, feed.liquid_viscosity
+        alone = terminal_velocity(diameter, jnp.maximum(feed.solid_density, liquid[0]), *liquid)
+        share = jnp.clip(feed.solids_volume_fraction, 1e-12, 1.0 - 1e-9)
+        return alone * hindrance_richardson_zaki(share, reynolds_number(diameter, alone, *liquid))
+
     def inside(self, feed: Stream) -> Batch:
         flow, solid = feed.slurry_volume_flow, self.solids_recovery * feed.solid_flow
         loading = self.slurry_depth * safe_divide(solid, flow, 0.0)
         thickness = loading / ((1.0 - self.void_fraction) * feed.solid_density)
-        filtrate = self.slurry_depth - jnp.clip(thickness, THINNEST, self.slurry_depth * (1.0 - 1e-9))
-        formation = filtration_time_falling_head(
-            filtrate,
+        velocity = self.settling(feed)
+        formation = filtration_time_settling(
             self.slurry_depth,
+            velocity,
+            jnp.clip(
+                safe_divide(solid, flow * feed.solid_density, 0.0), 0.0, PACKED * (1.0 - self.void_fraction)
+            ),
+            self.void_fraction,
             self.cake_resistance,
             self.medium_resistance,
-            loading / filtrate,
+            feed.solid_density,
             feed.liquid_viscosity,
             feed.liquid_density,
         )
@@ -168,6 +194,7 @@ class GravityFilter(Unit):
             cycle,
             flow * cycle / self.slurry_depth,
             self.saturation(feed, jnp.maximum(thickness, THINNEST)),
+            velocity,
         )
 
     def outlets(self, inside: Batch, feed: Stream) -> Drained:
@@ -190,6 +217,7 @@ class GravityFilter(Unit):
             cycle_time=inside.cycle,
             formation_time=inside.formation,
             filtrate_flow=outlets.filtrate.liquid_volume_flow,
+            settling_velocity=inside.velocity,
             pressure_drop=feed.liquid_density * STANDARD_GRAVITY * self.slurry_depth,
             cake_saturation=inside.saturation,
             moisture_dry_basis=outlets.cake.moisture_dry_basis,
