@@ -98,6 +98,9 @@ def one_message(command: Callable[..., None]) -> Callable[..., None]:
             _fail(problem, bool(kwargs.get("as_json")))
         except KeyboardInterrupt:
             raise SystemExit(130) from None
+        except BrokenPipeError:  # nobody reads on, as behind ``| head``
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            raise SystemExit(141) from None
         except Exception as problem:
             if os.environ.get("GRANUM_TRACEBACK"):
                 raise

@@ -67,7 +67,7 @@ class SolarFigures(NamedTuple):
     relative_humidity: Ratio
     height_chimney: Length
     heat_duty: Power
-    energy_per_water: SpecificEnergy
+    energy_per_water_solar: SpecificEnergy
 
 
 @equipment("solar_dryer", source="duffie2013, ch. 6; keey1978", title="Solar dryer with collector")
@@ -197,7 +197,7 @@ class SolarDryer(LayerDryer):
             relative_humidity=whole.relative_humidity,
             height_chimney=safe_divide(self.pressure_drop, jnp.maximum(per_height, 0.0)),
             heat_duty=outlets.heat_duty,
-            energy_per_water=safe_divide(outlets.heat_duty, jnp.maximum(whole.evaporation_rate, 0.0)),
+            energy_per_water_solar=safe_divide(outlets.heat_duty, jnp.maximum(whole.evaporation_rate, 0.0)),
         )
 
     def measured(

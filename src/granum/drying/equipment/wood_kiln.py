@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -139,7 +140,7 @@ class WoodKiln(Unit):
             "wengert2012",
         ),
         "gradient": Limit(
-            "moisture of the core above the mean at the end", -1.0, 0.03, "kg/kg", "wengert2012"
+            "moisture of the core above the mean at the end", -math.inf, 0.03, "kg/kg", "wengert2012"
         ),
         "time": Limit(
             "drying time of a charge", 3.5 * 86400.0, 90 * 86400.0, "s", "houdon2017, notes D table IV.18"
