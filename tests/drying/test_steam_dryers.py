@@ -127,7 +127,7 @@ def test_steam_first_wets_a_cold_feed() -> None:
     condenses and cools from 200 °C: some 0.075 kg/kg of water, of which the gas brings a part as sensible
     heat of what stays steam.
     """
-    dryer = RotaryDryer(10.0, 1.7, SurfaceKinetics(0.2), gas_direction="co-current")
+    dryer = RotaryDryer(10.0, 1.7, SurfaceKinetics(0.2), 0.01, 0.2, gas_direction="co-current")
     feed = wet(COARSE, 0.35, 0.3)
     gas = steam(COARSE, 4.0, 473.15)
     found = dryer.profile(feed, gas)
