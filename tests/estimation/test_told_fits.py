@@ -124,7 +124,7 @@ def test_a_covariance_that_is_no_number_does_not_name_a_parameter_twice(known: f
         covariance[1:, 1:] = [[1.0, 0.99], [0.99, 1.0]]
     unknown = SimpleNamespace(interval_95=(np.nan, np.nan))
     estimates: Any = dict.fromkeys(("share", "rate_1", "rate_2"), unknown)
-    problem: Any = None
+    problem: Any = SimpleNamespace(kinds={})
     (told,) = parameter_notes(estimates, covariance, {}, np.inf, problem, "card")
-    counts = [told["message"].count(n) for n in estimates]
+    counts = [told["message"].count(n.replace("_", " ")) for n in estimates]
     assert counts == ([0, 1, 1] if known else [1, 1, 1])
