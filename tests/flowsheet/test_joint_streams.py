@@ -324,6 +324,7 @@ AS_ALONE = (  # with the values with which they open by themselves
     "dust.mesh_pad",
     "filtration.belt_press",
     "filtration.reverse_osmosis",
+    "filtration.screw_press",
     "filtration.ultrafiltration",
     "settling.dissolved_air_flotation",
     "drying.radiant_dryer",
