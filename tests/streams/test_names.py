@@ -19,7 +19,7 @@ def _names() -> set[str]:
 
 def test_every_name_of_the_examples_has_its_french_and_no_other_stands_there() -> None:
     words = {name.rstrip("0123456789").rstrip("_") for name in _names()}
-    assert words == set(french())
+    assert words | {"feed"} == set(french())  # the inlet of a machine alone
 
 
 def test_english_keeps_the_names_of_the_case_file() -> None:
