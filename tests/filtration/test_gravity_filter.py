@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
+import jax
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -63,6 +65,12 @@ def test_what_settles_ahead_stands_in_the_way() -> None:
     assert times[0] == pytest.approx(slow, rel=1e-9)
     assert times[-1] == pytest.approx(at_once, rel=1e-4)
     assert np.all(np.diff(times) > 0.0)
+
+    def lasts(speed: Any) -> Any:
+        return gr.filtration.filtration_time_settling(0.5, speed, medium_resistance=1e9, **grains)
+
+    slope = float(jax.grad(lasts)(0.0))
+    assert slope == pytest.approx((float(lasts(1e-10)) - float(lasts(0.0))) / 1e-10, rel=1e-4)
 
 
 def test_grains_settle_by_their_size() -> None:

@@ -10,10 +10,9 @@ from granum.core import registry
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
-from granum.core.index import entries
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, pretty_unit
-from granum.streams.names import french, pretty
+from granum.streams.names import pretty
 
 _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
@@ -56,20 +55,10 @@ def _placed(found: re.Match[str], message: str) -> str:
     """The unit or feed that a message is about, where it does not name the machine of that name anyway."""
     name = found[1]
     if found.start() > 0:
-        return f"{_called(name)}{found[2]}"
+        return f"{pretty(name)}{found[2]}"
     if any(key[0].rpartition(".")[2] == name for key in _KEY.finditer(message)):
         return ""
-    return _("{unit}: {message}").format(unit=_called(name), message="")
-
-
-def _called(name: str) -> str:
-    """A unit or a feed as people read it; one that bears the name of its machine, as a machine alone does, by
-    its title.
-    """
-    machines = (entry.key for entry in entries().values() if entry.sort == "equipment" and entry.name == name)
-    if name not in french() and (key := next(machines, "")):
-        return _title(key)
-    return pretty(name)
+    return _("{unit}: {message}").format(unit=pretty(name), message="")
 
 
 def told(error: Mapping[str, Any]) -> dict[str, Any]:

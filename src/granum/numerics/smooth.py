@@ -111,3 +111,13 @@ def blend(x: Any, start: Any, end: Any, before: Any, after: Any) -> jax.Array:
     s = jnp.clip(safe_divide(x - start, jnp.subtract(end, start), step), 0.0, 1.0)
     weight = s**3 * (s * (6.0 * s - 15.0) + 10.0)
     return before + weight * (after - before)
+
+
+def exprel(x: Any) -> Any:
+    """(eˣ − 1)/x, one at zero, with its derivative there.
+
+    >>> bool(abs(exprel(1.0) - 1.718281828) < 1e-9), float(jax.grad(exprel)(0.0))
+    (True, 0.5)
+    """
+    near = jnp.abs(x) < 1e-5
+    return jnp.where(near, 1.0 + x / 2.0 + x**2 / 6.0, jnp.expm1(x) / jnp.where(near, 1.0, x))

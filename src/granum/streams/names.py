@@ -4,12 +4,14 @@ that of the reader.
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from importlib.resources import files
 
 import tomli
 
 from granum.core.i18n import _, current_language
+from granum.core.index import entries
 
 # where the bare word says something else in another place
 PORTS = {"heavy": "heavy liquid", "light": "light liquid"}
@@ -22,6 +24,16 @@ def french() -> dict[str, str]:
     return tomli.loads(place.read_text(encoding="utf-8"))
 
 
+@cache
+def _machines() -> dict[str, str]:
+    """French for the names of equipment, which a machine alone and a new unit of a line bear: their titles
+    without what is added to them.
+    """
+    machines = (entry for entry in entries().values() if entry.sort == "equipment")
+    titles = {machine.name: re.split(r" \(|, ", machine.french_title)[0] for machine in machines}
+    return {name: title[:1].lower() + title[1:] for name, title in titles.items()}
+
+
 def pretty(name: str) -> str:
     """A unit, a stream or an outlet as people read it; a name not known in their language stays.
 
@@ -29,8 +41,8 @@ def pretty(name: str) -> str:
     >>> pretty("hot_liquor"), pretty("hot_liquor.vapor_2")
     ('hot liquor', 'hot liquor · vapor 2')
     >>> with language("fr"):
-    ...     pretty("hot_liquor"), pretty("dried_2"), pretty("broyeur_à_moi.product")
-    ('liqueur chaude', 'séché 2', 'broyeur à moi · produit')
+    ...     pretty("hot_liquor"), pretty("dried_2"), pretty("broyeur_à_moi.product"), pretty("gravity_filter")
+    ('liqueur chaude', 'séché 2', 'broyeur à moi · produit', 'filtre par gravité')
     """
     unit, dot, port = name.partition(".")
     return _called(unit) + (f" · {port_label(port)}" if dot else "")
@@ -44,6 +56,7 @@ def port_label(port: str) -> str:
 def _called(name: str) -> str:
     number = name[len(name.rstrip("0123456789")) :]
     word = name.removesuffix(f"_{number}")
-    if current_language() == "fr" and word in french():
-        return f"{french()[word]} {number}".strip()
+    known = french().get(word) or _machines().get(word) if current_language() == "fr" else None
+    if known:
+        return f"{known} {number}".strip()
     return name.replace("_", " ")

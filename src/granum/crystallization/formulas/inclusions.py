@@ -25,6 +25,8 @@ from granum.crystallization.kinds import ForwardGrowthRate, Growth, InclusionSha
 
 CARLSON = 0.214
 LARGEST = 1e3  # m, of a crystal that never shuts anything in
+_LIQUOR = {"liquor_velocity": (0.01, 0.2), "diffusivity": (5e-10, 2e-9), "kinematic_viscosity": (5e-7, 3e-6)}
+_SUPERSATURATED = {"supersaturation_concentration": (1.0, 20.0), "crystal_density": (1500.0, 2500.0)}
 
 
 @formula(
@@ -35,14 +37,7 @@ LARGEST = 1e3  # m, of a crystal that never shuts anything in
         r"\mathrm{Sc} = \frac{\nu}{D}"
     ),
     output="growth_rate_clear",
-    typical={
-        "crystal_size": (1e-4, 2e-3),
-        "liquor_velocity": (0.01, 0.2),
-        "supersaturation_concentration": (1.0, 20.0),
-        "crystal_density": (1500.0, 2500.0),
-        "diffusivity": (5e-10, 2e-9),
-        "kinematic_viscosity": (5e-7, 3e-6),
-    },
+    typical=_LIQUOR | _SUPERSATURATED | {"crystal_size": (1e-4, 2e-3)},
 )
 def growth_rate_clear_carlson(
     crystal_size: Length,
@@ -79,14 +74,7 @@ def growth_rate_clear_carlson(
         r"\mathrm{Sc} = \frac{\nu}{D}"
     ),
     output="inclusion_onset_size",
-    typical={
-        "growth_rate": (5e-8, 5e-7),
-        "liquor_velocity": (0.01, 0.2),
-        "supersaturation_concentration": (1.0, 20.0),
-        "crystal_density": (1500.0, 2500.0),
-        "diffusivity": (5e-10, 2e-9),
-        "kinematic_viscosity": (5e-7, 3e-6),
-    },
+    typical=_LIQUOR | _SUPERSATURATED | {"growth_rate": (5e-8, 5e-7)},
 )
 def inclusion_onset_size_carlson(
     growth_rate: ForwardGrowthRate,
@@ -187,11 +175,7 @@ class OnsetSize(InclusionOnset):
         r"L_s = 0.214\,D\,u\left(\frac{D}{\nu}\right)^{1/3}\left(\frac{2\,\Delta c}{\rho_c G}\right)^2,\quad "
         r"\Delta c = \rho_l\left(\frac{C}{1+C} - \frac{C^*}{1+C^*}\right)"
     ),
-    typical={
-        "liquor_velocity": (0.01, 0.2),
-        "diffusivity": (5e-10, 2e-9),
-        "kinematic_viscosity": (5e-7, 3e-6),
-    },
+    typical=_LIQUOR,
 )
 class OnsetByGrowth(InclusionOnset):
     """Size from which crystals shut in liquor, by Carlson's bound, at the growth rate that the liquor gives

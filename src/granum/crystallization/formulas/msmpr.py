@@ -21,7 +21,7 @@ from granum.core.kinds import (
 )
 from granum.crystallization.kinds import ForwardGrowthRate, SizeParameter
 from granum.numerics.roots import find_root
-from granum.numerics.smooth import safe_divide
+from granum.numerics.smooth import exprel, safe_divide
 
 NO_GROWTH = "Without growth, or without time for it, no crystal becomes larger."
 RISING = "The sizes below which 16, 50 and 84 % lie rise in this order."
@@ -239,9 +239,7 @@ def population_density_size_dependent(
     path = g * growth_rate * residence_time
     impossible(~(path > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
     u = (1.0 - b) * jnp.log(base)
-    near = jnp.abs(u) < 1e-5
-    # (base^(1-b) - 1)/(1-b) over ln base
-    stretch = jnp.where(near, 1.0 + u / 2.0 + u**2 / 6.0, jnp.expm1(u) / jnp.where(near, 1.0, u))
+    stretch = exprel(u)  # (base^(1-b) - 1)/(1-b) over ln base
     return nuclei_population_density * base**-b * jnp.exp(-jnp.log(base) * stretch / path)
 
 

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.errors import InputError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     CakeResistance,
@@ -196,6 +197,7 @@ class ScrewPress(Unit):
             0.5 * jnp.minimum(self.ratios(1.0), loosest),
             loosest * (1.0 + 1e-9),
         )
+        unsolved(root.converged, type(self).card)
         return self.passage(per_area * (1.0 + root.value), feed)
 
     def outlets(self, inside: Passage, feed: Stream) -> Pressed:

@@ -25,6 +25,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.numerics import find_root
+from granum.numerics.smooth import exprel
 
 DRY = 1.0 - 1e-9
 TOO_MUCH = "The level cannot fall by more than the slurry is deep."
@@ -191,7 +192,7 @@ def filtration_time_settling(
     """
     share, packed = solids_volume_fraction, 1.0 - void_fraction
     impossible(~(share < packed), share, "solids_volume_fraction", 0.0, packed, PACKED)
-    share = jnp.clip(share, 1e-12, DRY * packed)
+    share = jnp.clip(share, 1e-12, (1.0 - 1e-6) * packed)
     deep, weight = slurry_depth, liquid_density * STANDARD_GRAVITY
     end = share * deep / packed
     whole = dynamic_viscosity / weight * (cake_resistance * share * deep * solid_density + medium_resistance)
@@ -202,15 +203,16 @@ def filtration_time_settling(
 
     def lasts(s: Any) -> Any:
         steep = jnp.minimum(c * s, STEEPEST)
-        mounting = jnp.where(c > 1e-12, jnp.expm1(steep) / jnp.where(c > 1e-12, c, 1.0), s)
-        return (A * deep + B) * mounting - A * deep * (jnp.exp(steep) - jnp.exp(-s)) / (c + 1.0)
+        mounted = exprel(steep)
+        return s * (B * mounted + A * deep * (mounted - jnp.exp(-s) * exprel(steep + s)))
 
     fallen = jnp.log(deep / end)
     root = find_root(
         lambda s: -deep * jnp.expm1(-s) + settling_velocity * lasts(s) - (deep - end),
         0.0,
-        fallen,
+        fallen * (1.0 + 1e-9),  # where nothing settles the root is the end itself
         tolerance=1e-14,
     )
     unconverged(root.converged)
-    return lasts(root.value) + whole * (fallen - root.value)
+    lain = jnp.minimum(root.value, fallen)
+    return lasts(lain) + whole * (fallen - lain)
