@@ -16,7 +16,7 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
-from tests.app.browsing import Page
+from tests.app.browsing import MOSTLY_FRENCH, Page
 
 WORDS = {
     "en": {
@@ -115,7 +115,7 @@ def build(page: Page, language: str) -> None:
     solved(page)
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@pytest.mark.parametrize("language", MOSTLY_FRENCH)
 def test_a_line_is_built_from_nothing_to_a_report(page: Page, language: str) -> None:
     build(page, language)
     w = WORDS[language]
@@ -323,7 +323,7 @@ def test_every_piece_of_equipment_is_found_in_both_languages(address: str) -> No
         assert english["title"] in french["other_names"]
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@pytest.mark.parametrize("language", MOSTLY_FRENCH)
 def test_a_line_of_a_substance_of_ones_own_is_begun_and_its_constants_changed(
     page: Page, language: str
 ) -> None:

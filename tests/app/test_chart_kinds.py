@@ -53,7 +53,10 @@ def test_no_button_of_a_chart_sends_anything_anywhere(page: Page, chart: str) ->
     assert len(page.browser.window_handles) == windows
 
 
-@pytest.mark.parametrize(("language", "add"), [("en", "Add a state"), ("fr", "Ajouter un état")])
+@pytest.mark.parametrize(
+    ("language", "add"),
+    [pytest.param("en", "Add a state", marks=pytest.mark.long), ("fr", "Ajouter un état")],
+)
 def test_states_of_humid_gas_are_a_table(page: Page, language: str, add: str) -> None:
     page.open(
         "charts/humid_gas.psychrometric_chart?temperature=20+60+degC&humidity_ratio=8+8+g%2Fkg", language

@@ -10,7 +10,7 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from tests.app.browsing import Page
+from tests.app.browsing import MOSTLY_FRENCH, Page
 
 WIDTHS = (390, 1100, 1440, 1920)
 
@@ -175,7 +175,7 @@ def test_every_task_of_the_start_leads_to_a_page_that_opens(page: Page) -> None:
         assert not page.all(".message.out"), place
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@pytest.mark.parametrize("language", MOSTLY_FRENCH)
 def test_equipment_is_calculated_alone_and_put_in_a_line(page: Page, language: str) -> None:
     page.open("calculate/filtration.rotary_vacuum_drum", language)
     page.until(lambda: page.all("[data-belief=ok]"))

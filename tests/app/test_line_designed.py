@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
-from tests.app.browsing import Page, resize
+from tests.app.browsing import MOSTLY_FRENCH, Page, resize
 from tests.app.test_builder import case_of, pick, press, solved
 
 WORDS = {
@@ -53,7 +53,7 @@ def begun(page: Page, language: str) -> dict[str, str]:
     return w
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@pytest.mark.parametrize("language", MOSTLY_FRENCH)
 def test_the_water_is_found_for_the_solids_of_a_stream(page: Page, language: str) -> None:
     w = begun(page, language)
     (feed,), (unit,) = case_of(page)["feeds"], case_of(page)["units"]
@@ -83,7 +83,7 @@ def test_a_stream_is_renamed_and_its_specification_follows(page: Page) -> None:
     page.says("[data-streams]", "boue chaude")
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@pytest.mark.parametrize("language", MOSTLY_FRENCH)
 def test_prices_are_typed_and_the_costs_stand_in_the_table(page: Page, language: str) -> None:
     w = begun(page, language)
     (unit,) = case_of(page)["units"]

@@ -10,7 +10,7 @@ import pytest
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
-from tests.app.browsing import Page
+from tests.app.browsing import MOSTLY_FRENCH, Page
 
 LANGUAGES = ("en", "fr")
 CASE = "examples:grinding-circuit/circuit.toml"
@@ -31,7 +31,7 @@ PLACES = {
 }
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", MOSTLY_FRENCH)
 @pytest.mark.parametrize("place", PLACES)
 def test_a_page_is_clean_wide_and_narrow_light_and_dark(page: Page, place: str, language: str) -> None:
     for width, theme in ((1400, "light"), (420, "dark")):
@@ -41,7 +41,9 @@ def test_a_page_is_clean_wide_and_narrow_light_and_dark(page: Page, place: str, 
         page.check()
 
 
-@pytest.mark.parametrize(("language", "point"), [("en", "."), ("fr", ",")])
+@pytest.mark.parametrize(
+    ("language", "point"), [pytest.param("en", ".", marks=pytest.mark.long), ("fr", ",")]
+)
 def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -> None:
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}", language)
     shown = page.one("[data-output=terminal_velocity]")
@@ -75,7 +77,9 @@ TYPED = [
 ]
 
 
-@pytest.mark.parametrize(("language", "point"), [("en", "."), ("fr", ",")])
+@pytest.mark.parametrize(
+    ("language", "point"), [pytest.param("en", ".", marks=pytest.mark.long), ("fr", ",")]
+)
 def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: str, point: str) -> None:
     import json
 

@@ -17,7 +17,10 @@ def page(browser, address) -> Page:
 
 @pytest.mark.parametrize(
     ("language", "word", "heat"),
-    [("en", "Utilities", "heat supplied"), ("fr", "Utilités", "chaleur fournie")],
+    [
+        pytest.param("en", "Utilities", "heat supplied", marks=pytest.mark.long),
+        ("fr", "Utilités", "chaleur fournie"),
+    ],
 )
 def test_what_a_line_takes_is_folded_below_its_streams(
     page: Page, language: str, word: str, heat: str

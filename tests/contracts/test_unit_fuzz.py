@@ -35,7 +35,6 @@ QUICK = (
     "msmpr",
     "evaporator",
     "recompression",
-    "train",
     "drowned",
     "drowned in batches",
     "ultrafiltration",

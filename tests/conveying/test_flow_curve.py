@@ -37,7 +37,7 @@ def test_consistency_at_another_shear_rate_is_the_viscosity_there():
     assert found["flow_index"].value == pytest.approx(0.55, rel=1e-5)
 
 
-@pytest.mark.parametrize("curve", ["bingham", "power_law"])
+@pytest.mark.parametrize("curve", [pytest.param("bingham", marks=pytest.mark.long), "power_law"])
 def test_intervals_cover_the_truth_as_often_as_they_say(curve):
     names = {"bingham": ("consistency", "yield_stress"), "power_law": ("consistency", "flow_index")}[curve]
     true = {name: TRUE[name] for name in names}

@@ -219,6 +219,7 @@ def test_a_slow_beginning_keeps_the_supersaturation_and_the_nuclei_down():
     assert nuclei == sorted(nuclei, reverse=True)
 
 
+@pytest.mark.long
 def test_batches_of_all_kinds_close_and_never_give_more_than_equilibrium():
     rng = np.random.default_rng(7)
     operate = eqx.filter_jit(lambda unit, a, b: unit.operate(feed=a, antisolvent=b))

@@ -94,6 +94,7 @@ def test_with_much_circulation_it_is_the_classifying_crystallizer_of_mccabe():
     assert float(out.product) / 2.4 == pytest.approx(float(ideal / share), rel=2e-3)
 
 
+@pytest.mark.long
 def test_more_bed_leaves_less_in_the_liquor_and_more_upflow_grows_larger_crystals():
     small, large = bed(height=0.4), bed(height=1.2)
     assert small.relative_supersaturation > large.relative_supersaturation

@@ -91,6 +91,7 @@ def test_cooling_gives_potassium_and_boiling_sodium_chloride():
     assert boiled.pressure == pytest.approx(float(boiled.water_activity) * 84.5e3, rel=0.005)
 
 
+@pytest.mark.long
 def test_it_closes_at_random_settings():
     rng = np.random.default_rng(5)
     made_of = jax.jit(lambda T, share, feed: TwoSaltCrystallizer(T, 5.0, evaporation=share)(feed=feed))

@@ -25,7 +25,7 @@ def checked(made, words: str):
     return found
 
 
-@pytest.mark.parametrize("cells", [1, 3])
+@pytest.mark.parametrize("cells", [pytest.param(1, marks=pytest.mark.long), 3])
 def test_coils_give_their_heat_at_the_difference_of_temperatures(cells: int) -> None:
     """Steam of 4 bar is at 143.6 °C (steam tables); Zabrodsky by hand; the area lies between those that the
     hottest and the coldest place ask for.

@@ -41,7 +41,7 @@ def test_the_gas_loses_what_the_dryer_loses(name: str) -> None:
     assert float(made.outlets.product.mass_flow) == 0.0
 
 
-@pytest.mark.parametrize("cells", [1, 6])
+@pytest.mark.parametrize("cells", [pytest.param(1, marks=pytest.mark.long), 6])
 def test_coils_in_a_bed_are_heat_that_somebody_pays(cells: int) -> None:
     """As a loss of their size with the other sign, and in the bill; they evaporate no more than they can."""
     feed, gas = solid(), air(2.0)

@@ -61,7 +61,7 @@ def test_flights_of_a_usual_make_are_full_at_usual_holdups() -> None:
         assert np.all((found > 0.03) & (found < 0.15))
 
 
-@pytest.mark.parametrize("way", ["co-current", "counter-current"])
+@pytest.mark.parametrize("way", [pytest.param("co-current", marks=pytest.mark.long), "counter-current"])
 def test_half_the_flows_leave_half_full_flights_as_they_are(way: str) -> None:
     """Half of solid and gas, the exchange per kg the same: without the gas in it (exponent zero), the product
     and the exhaust are those of the whole flows where flights are under-full, and drier where they were full.

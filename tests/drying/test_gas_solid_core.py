@@ -109,6 +109,7 @@ def test_wet_solid_goes_to_the_wet_bulb_of_humid_gas() -> None:
         )
 
 
+@pytest.mark.long
 def test_dynamic_conserves_and_reaches_the_steady_state() -> None:
     n, steps, step = 20, 150, 40.0
     rng = np.random.default_rng(1)

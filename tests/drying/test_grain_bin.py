@@ -55,6 +55,7 @@ def test_maize_dries_with_ambient_air_in_the_weeks_that_are_told() -> None:
     assert wet_basis(after(25.0).moisture_dry_basis_highest) > 0.18
 
 
+@pytest.mark.long
 def test_cold_air_carries_little_water_away() -> None:
     """100 000 lb of air of 47 °F and 70 % take up about 70 lb of water from maize of 21 % and bring it to
     16 % (Hellevang, read, of January 2020): a wet top still lies over what is dry.
@@ -111,6 +112,7 @@ def test_the_layers_end_where_the_fronts_end() -> None:
     )
 
 
+@pytest.mark.long
 def test_a_hundred_bins_keep_their_books() -> None:
     """Water and heat close, more air brings the grain no farther from that of the air, and the water activity
     stays one.

@@ -93,6 +93,7 @@ def test_paper_never_dries_below_equilibrium_and_stays_below_the_steam() -> None
     assert float(figures.temperature_highest) < 406.7  # 3 bar
 
 
+@pytest.mark.long
 def test_sized_width_reaches_its_moisture() -> None:
     unit = PaperMachine.size(0.06, FEED, AIR, 0.06, **STEAM)
     assert float(made(width=unit.width)[0].moisture_dry_basis) == pytest.approx(0.06, abs=1e-5)

@@ -114,6 +114,7 @@ def outside(flow: Any = 0.1, humidity: Any = 0.011, temperature: Any = 304.0) ->
     return empty(MIXTURE, temperature).replace(gas=jnp.stack([flow, flow * humidity]))
 
 
+@pytest.mark.long
 def test_the_sun_of_a_dryer_is_that_of_its_collector() -> None:
     """With air that enters as it is outside the efficiency is F_R τα all day: half a sine has 2/π of its top.
     The hottest air is that of the collector in the middle of the day.
@@ -136,6 +137,7 @@ def test_without_sun_it_is_air_through_a_layer() -> None:
     assert float(made.figures.moisture_dry_basis) == pytest.approx(low, rel=0.05)
 
 
+@pytest.mark.long
 def test_a_hundred_solar_dryers_keep_their_books() -> None:
     """Water and heat close; a larger collector leaves the product no wetter."""
     x = np.random.default_rng(14).uniform(size=(100, 8))

@@ -185,10 +185,9 @@ def units(name: str, x: Any) -> tuple[Any, Any]:
     "name",
     [
         "rotary",
-        "bed",
         *(
             pytest.param(n, marks=pytest.mark.long)
-            for n in ("rotary with it", "tunnel", "flash", "tanks", "belt")
+            for n in ("bed", "rotary with it", "tunnel", "flash", "tanks", "belt")
         ),
     ],
 )

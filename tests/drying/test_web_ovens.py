@@ -125,6 +125,7 @@ def test_a_web_that_would_burn_is_refused() -> None:
         alone(oven, feed=FEED, gas=AIR)
 
 
+@pytest.mark.long
 def test_sized_length_reaches_its_moisture() -> None:
     given = {k: v for k, v in STENTER.items() if k != "length"}
     unit = ImpingementDryer.size(0.07, FEED, AIR, **given)

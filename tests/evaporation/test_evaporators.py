@@ -103,7 +103,14 @@ def test_one_effect_closes_whatever_is_set(seed):
             assert float(liquid[1] / liquid[0]) <= saturated * (1.0 + 1e-9)
 
 
-@pytest.mark.parametrize("feeding", ["forward", "backward", "parallel"])
+@pytest.mark.parametrize(
+    "feeding",
+    [
+        pytest.param("forward", marks=pytest.mark.long),
+        "backward",
+        pytest.param("parallel", marks=pytest.mark.long),
+    ],
+)
 def test_every_way_of_the_feed_closes_and_saves_steam(feeding):
     unit = MultipleEffectEvaporator("30 m^2", "0.1 bar", "3 bar", feeding=feeding, drop_entrainment=1e-3)
     made = unit.operate(feed=brine())

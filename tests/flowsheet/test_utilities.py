@@ -120,6 +120,7 @@ def test_a_pump_and_a_fan_close_and_warm() -> None:
     assert run.figure("f.temperature") == pytest.approx(ideal, abs=0.1)
 
 
+@pytest.mark.long
 def test_studies_watch_what_is_taken() -> None:
     found = gr.studies.sweep(
         gr.read(STARCH),

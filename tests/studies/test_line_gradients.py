@@ -118,6 +118,7 @@ def test_figures_of_the_subject_are_those_of_the_run(line, outputs, value) -> No
     )
 
 
+@pytest.mark.long
 def test_spread_of_the_example() -> None:
     """A cake resistance that spreads by 1.6 moves the moisture; the product is fixed by the balance to within
     a few per cent.
