@@ -107,6 +107,11 @@ slower_fine = 1 - fall_fine[0.6] / fall_fine[1.0]
 natural = p.terminal_velocity_ferguson_church("1 mm", 2650, **WATER)
 
 # ---- corrections
+thinning, thinning_small = (
+    float(p.terminal_velocity_renaud(size, 2650, 1000, 1.0, 0.6)) for size in ("3 mm", "1 mm")
+)
+held = 1e-3 / float(p.yield_stress_beris("1 mm", 2650, 1000))
+plastic = float(p.terminal_velocity_ansley_smith("10 mm", 2650, 1000, "50 mPa*s", 1.0))
 walled = float(p.terminal_velocity_bounded(0.01, 0.1, 0.1)) / 0.01
 mean_path = 66e-9
 dust_fall = {

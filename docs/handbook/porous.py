@@ -77,6 +77,10 @@ thinned, thinned_fast = (
     float(po.dynamic_viscosity_bed_christopher_middleman(U, "1 mm", 0.5, 1.0, 0.5))
     for U in ("1 mm/s", "10 mm/s")
 )
+start = float(po.pressure_gradient_yield_bed("1 mm", 0.5, 2.0))
+yielding = float(po.superficial_velocity_bed_bingham(2 * start, "1 mm", 0.5, 0.02, 2.0)) / float(
+    po.superficial_velocity_bed_bingham(2 * start, "1 mm", 0.5, 0.02, 0.0)
+)
 
 # ---- catalyst
 HOT = {"temperature": "200 degC", "molar_mass": "28.97 g/mol", "dynamic_viscosity": "25.8 uPa s"}

@@ -108,6 +108,19 @@ def test_what_stands_against_a_size_is_told() -> None:
     assert not doubts(gr.size("filtration.gravity_filter", capacity_use=0.9))
 
 
+def test_what_is_counted_is_told_as_a_whole_number() -> None:
+    told = doubts(gr.size("settling.lamella", overflow_rate="1 m/hour", feed={"liquid_flow": "150 t/h"}))
+    assert "A whole number is built: number of plates = 119 or 120" in told
+    counted = {row["setting"] for row in _declared().values() if row.get("whole")}
+    assert counted == {row["setting"] for row in _declared().values() if "_number" in row.get("setting", "")}
+
+
+def test_the_end_of_what_may_be_set_is_looked_at() -> None:
+    """One hydrocyclone is the least there is."""
+    with pytest.raises(ConvergenceError, match="from 1 to"):
+        gr.size("cyclones.hydrocyclone", cut_size="10 um")
+
+
 def test_a_size_at_which_there_is_no_answer_is_no_size() -> None:
     """A membrane beyond the liquid that there is has figures, but no answer: they are not looked at."""
     run = gr.size("filtration.ultrafiltration", volume_concentration_factor=10.0)

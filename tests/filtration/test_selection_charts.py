@@ -51,6 +51,24 @@ def test_no_two_machines_tie_at_the_top_and_each_rank_has_its_reason():
     assert "take" in found.speaks_against[found.separator.index("rotary vacuum drum")]
 
 
+def test_presses_for_sludge_and_a_filter_under_its_own_head():
+    """Primary sludge in flocs: presses that run all the time before those for batches; sand needs none."""
+    sludge, found = ranked("30 um", 60, 0.03, "20 m^3/hour", liquid_left_wanted=0.75)
+    assert min(sludge["belt press"], sludge["screw press"]) > sludge["plate-and-frame or chamber press"]
+    assert "needs flocs" in found.speaks_against[found.separator.index("belt press")]
+    sand, found = ranked("500 um", 1650, 0.1, "2 m^3/hour")
+    assert sand["gravity filter (batch)"] > max(sand["belt press"], sand["screw press"])
+    # 20 mm of cake under half a meter of water, by hand
+    fine, found = ranked("5 um", 1650, 0.1, "2 m^3/hour")
+    resistance = 180.0 * 0.55**2 / (0.45**3 * 5e-6**2)
+    minutes = 1e-3 * resistance * 0.02**2 / (2.0 * 0.1 / (1 - 0.45 - 0.1) * 5e3) / 60.0
+    assert (
+        f"20 mm of cake take {minutes:.2g} min"
+        in found.speaks_against[found.separator.index("gravity filter (batch)")]
+    )
+    assert fine["gravity filter (batch)"] < fine["membrane press"]
+
+
 def test_drops_that_float_go_to_machines_with_an_outlet_for_them():
     _cream, found = ranked("5 um", -120, 0.04, "10 m^3/hour", drops=True)
     assert set(found.separator[:3]) <= {"disc stack centrifuge", "scroll decanter", "cross-flow membrane"}

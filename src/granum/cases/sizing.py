@@ -6,9 +6,10 @@ The file ``sizes.toml`` says which setting is sought for which figure, or why a 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.resources import files
+from math import ceil, floor
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -49,7 +50,7 @@ class Duty(NamedTuple):
 
 
 @cache
-def _declared() -> dict[str, dict[str, str]]:
+def _declared() -> dict[str, dict[str, Any]]:
     return tomli.loads((files("granum") / "cases" / "sizes.toml").read_text(encoding="utf-8"))
 
 
@@ -121,8 +122,8 @@ def size(key: str, setting: str = "", /, **inputs: Any) -> Run:
 
 
 def doubts(run: Run) -> str:
-    """What stands against the size found: checks that do not hold there, sources that do not reach so far;
-    empty where nothing does.
+    """What stands against the size found: that it is no whole number, checks that do not hold there, sources
+    that do not reach so far; empty where nothing does.
 
     >>> doubts(size("dust.bag_filter", superficial_velocity="1 m/min"))
     ''
@@ -130,7 +131,19 @@ def doubts(run: Run) -> str:
     failed = [_(check.name) for report in run.units.values() for check in report.checks if not check.ok]
     beyond = [flag["message"] for flag in run.flags if flag.get("flag") == "extrapolated"]
     told = [_("At the size found this check does not hold: {name}.").format(name=name) for name in failed]
-    return " ".join([*told, *dict.fromkeys(beyond)])
+    return " ".join([*_counted(run), *told, *dict.fromkeys(beyond)])
+
+
+def _counted(run: Run) -> Iterator[str]:
+    """What is built in a whole number and was found between two."""
+    for path, value in run.found.items():
+        name, _dot, setting = path.partition(".")
+        card = run.units[name].model.card
+        row = _declared().get(card.key, {})
+        if row.get("whole") and row["setting"] == setting and abs(value - round(value)) > SAME * value:
+            yield _("A whole number is built: {name} = {low} or {high}.").format(
+                name=card.parameter(setting).label, low=floor(value), high=ceil(value)
+            )
 
 
 def _asked(
@@ -207,7 +220,9 @@ def _bracket(line: Line, name: str, p: Parameter, figure: Parameter, wanted: flo
 def _looked_at(p: Parameter, start: float) -> np.ndarray:
     assert p.kind is not None  # as what is sought
     x = start * np.geomspace(1.0 / FAR, FAR, PLACES)
-    return x[(x > p.kind.lower) & (x < p.kind.upper)]
+    ends = ((p.kind.lower, p.kind.open_lower), (p.kind.upper, p.kind.open_upper))
+    closed = [end for end, bare in ends if not bare and x[0] < end < x[-1]]
+    return np.unique([*x[(x > p.kind.lower) & (x < p.kind.upper)], *closed])
 
 
 def _told(line: Line, name: str, setting: str, figure: str, x: np.ndarray) -> np.ndarray:

@@ -199,6 +199,7 @@ Amount = Annotated[Any, _nonnegative("relative amount", "dimensionless", "dimens
 PositiveNumber = Annotated[Any, _positive("positive number", "dimensionless", "dimensionless")]
 FlowIndex = Annotated[PositiveNumber, Within(0.1, 1.9)]
 ShearRate = Annotated[Frequency, Within(1e-6, 1e6)]
+YieldStress = Annotated[Stress, Within(0.0, 1e6)]
 Fraction = Annotated[Any, Kind("fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
 OpenFraction = Annotated[
     Any,

@@ -187,6 +187,9 @@ from granum.filtration.formulas.membranes import (
     osmotic_pressure as osmotic_pressure,
     rejection_solution_diffusion as rejection_solution_diffusion,
 )
+from granum.filtration.formulas.non_newtonian import (
+    filtration_time_power_law as filtration_time_power_law,
+)
 from granum.filtration.formulas.pleats import (
     pleat_pitch_best as pleat_pitch_best,
     pressure_drop_pleated as pressure_drop_pleated,

@@ -28,8 +28,8 @@ LEAST_GRAVITY, LEAST_SPUN = 3e-5, 1e-4
 VOIDS = 0.45  # of the cake by which filters are judged
 DECADE_OUT = log(10.0)
 # What speaks against a machine that is within all its ranges, as natural logarithms: at the end of a range,
-# per decade of needless speed or pressure, for a product that is all liquid.
-AT_THE_END, NEEDLESS, WET = 0.5, 0.15 * DECADE_OUT, 0.4
+# per decade of needless speed or pressure, for a product that is all liquid, for the polymer of its flocs.
+AT_THE_END, NEEDLESS, WET, FLOCCULANT = 0.5, 0.15 * DECADE_OUT, 0.4, 0.3
 AMPLE = 100.0  # times faster than needed, from where a machine does more than it has to
 
 
@@ -196,6 +196,8 @@ def _judge_product(machine: dict[str, Any], case: _Case, found: _Judged) -> None
     else:
         found.good.append(_("leaves {value} % of liquid by volume").format(value=told))
     found.missing += WET * left
+    if machine["flocculates"]:
+        found.against(FLOCCULANT, _("needs flocs or fibers, mostly a polymer"))
     if case.drops and not machine["takes_drops"]:
         found.against(2.0 * DECADE_OUT, _("cannot hold drops"))
     if case.washing and not machine["washes"]:
@@ -220,7 +222,7 @@ def _size(machine: dict[str, Any], flow: float, falling: float) -> str:
 
 
 @procedure(
-    source="svarovsky2001, ch. 1; perry2008, § 18; wakeman2005; robatel1989",
+    source="svarovsky2001, ch. 1; perry2008, § 18; wakeman2005; robatel1989; metcalf2003; epa2000; judd2022",
     title="Choice of a solid–liquid separator",
 )
 def separator_choice(
@@ -237,10 +239,11 @@ def separator_choice(
     cake formation, dryness and washing.
 
     Light solids and light drops have a negative difference of density: they need an outlet for what floats;
-    drops smear through a cake. The
-    suitability falls by a factor e for each decade outside a range of use, settling too slow or cake forming
-    too slow, and less within: toward the ends of the ranges, with needless speed or pressure, with liquid
-    left in the solid. The ranges are orders of magnitude: use the list to decide what to test.
+    drops smear through a cake. Of a slurry that is flocculated, give the size of its flocs. The suitability
+    falls by a factor e for each decade outside a range of use, settling too slow or cake forming too slow,
+    and less within: toward the ends of the ranges, with needless speed or pressure, with liquid left in the
+    solid, for flocs that must be made. The ranges are orders of magnitude: use the list to decide what to
+    test.
 
     The cake is judged by Kozeny and Carman at 45 % voids: the time that the thinnest cake a machine
     discharges well takes to form against the time that it commonly has. The size tells how many machines of

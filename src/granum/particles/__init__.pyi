@@ -140,6 +140,13 @@ from granum.particles.formulas.means import (
     size_span as size_span,
     uniformity_coefficient as uniformity_coefficient,
 )
+from granum.particles.formulas.non_newtonian import (
+    drag_coefficient_renaud as drag_coefficient_renaud,
+    reynolds_number_power_law as reynolds_number_power_law,
+    terminal_velocity_ansley_smith as terminal_velocity_ansley_smith,
+    terminal_velocity_renaud as terminal_velocity_renaud,
+    yield_stress_beris as yield_stress_beris,
+)
 from granum.particles.formulas.numbers import (
     reynolds_number as reynolds_number,
 )

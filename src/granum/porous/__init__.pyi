@@ -45,6 +45,9 @@ from granum.porous.formulas.kozeny import (
 )
 from granum.porous.formulas.non_newtonian import (
     dynamic_viscosity_bed_christopher_middleman as dynamic_viscosity_bed_christopher_middleman,
+    dynamic_viscosity_permeable_christopher_middleman as dynamic_viscosity_permeable_christopher_middleman,
+    pressure_gradient_yield_bed as pressure_gradient_yield_bed,
+    superficial_velocity_bed_bingham as superficial_velocity_bed_bingham,
 )
 from granum.porous.formulas.packed_beds import (
     BedNumbers as BedNumbers,

@@ -8,9 +8,6 @@ import jax.numpy as jnp
 
 from granum.conveying.equipment.slurry import Delivered
 from granum.conveying.formulas.non_newtonian import (
-    FlowIndex,
-    ShearRate,
-    YieldStress,
     pressure_gradient_bingham,
     pressure_gradient_herschel_bulkley,
     pressure_gradient_power_law,
@@ -23,13 +20,16 @@ from granum.core.i18n import _
 from granum.core.kinds import (
     Distance,
     DynamicViscosity,
+    FlowIndex,
     Length,
     PressureDrop,
     PressureGradient,
     Ratio,
+    ShearRate,
     Speed,
     Stress,
     VolumeFraction,
+    YieldStress,
 )
 from granum.core.limits import Limit
 from granum.streams.stream import Stream

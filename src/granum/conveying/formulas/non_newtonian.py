@@ -21,12 +21,11 @@ from granum.core.kinds import (
     Ratio,
     ShearRate,
     Speed,
-    Stress,
     Within,
+    YieldStress,
 )
 from granum.numerics import find_root, safe_power
 
-YieldStress = Annotated[Stress, Within(0.0, 1e6)]
 _PIPE = {
     "velocity": (0.5, 3.0),
     "diameter": (0.05, 0.3),

@@ -6,11 +6,10 @@ from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
-from granum.conveying.formulas.non_newtonian import YieldStress
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import DynamicViscosity, FlowIndex, Frequency, Series, ShearRate, Within
+from granum.core.kinds import DynamicViscosity, FlowIndex, Frequency, Series, ShearRate, Within, YieldStress
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
 
