@@ -6,7 +6,7 @@ from typing import Annotated, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.flags import unconverged
 from granum.core.kinds import Fraction, Molality, Number, PositiveNumber, Temperature, Within
 from granum.materials.formulas.precipitation import (
@@ -88,6 +88,7 @@ class SaturatedHydroxide(NamedTuple):
         r"\gamma_1^2\,m_H m_{OH} = K_w"
     ),
     output="saturated_hydroxide",
+    fitted={"ionic_strength": (0.0, HIGHEST)},
     typical={"solubility_product": (1e-39, 1e-5), "anion_count": (2.0, 3.0)},
 )
 def ph_saturated_hydroxide(
@@ -122,5 +123,6 @@ def ph_saturated_hydroxide(
 
     root = find_root(short, 0.5 * jnp.log(water) - 0.5, jnp.log(20.0))
     unconverged(root.converged)
-    hydroxide, _hydrogen, metal, one = ions(root.value)
+    hydroxide, hydrogen, metal, one = ions(root.value)
+    watch(ionic_strength=0.5 * (q**2 * metal + hydroxide + hydrogen))
     return SaturatedHydroxide(-jnp.log10(water / (one * hydroxide)), metal)
