@@ -78,6 +78,18 @@ def test_shares_of_substances_that_are_gone_go_with_them() -> None:
     assert alone(DRUM, mixture={"liquids": "water"}).solve().audit["mass_closure"] < 1e-9
 
 
+def test_shares_that_were_said_stay_when_those_of_the_example_go() -> None:
+    """Another salt in the crystallizer, its feed said whole."""
+    said = {"feed.liquid.water": 0.66, "feed.liquid.potassium chloride": 0.34}
+    other = {"mixture.liquids": "water,potassium chloride", "mixture.solids": "potassium chloride"}
+    assert tables("crystallization.msmpr", other | said)["feeds"]["feed"]["liquid"] == {
+        "water": 0.66,
+        "potassium chloride": 0.34,
+    }
+    odd = said | {"feed.liquid.potassium nitrate": 0.1}
+    assert "potassium nitrate" in tables("crystallization.msmpr", other | odd)["feeds"]["feed"]["liquid"]
+
+
 def test_laws_of_substances_that_are_gone_go_with_them() -> None:
     """The belt of the example dissolves its own salt; another solid does not ask for that salt."""
     belt = "filtration.horizontal_belt_filter"

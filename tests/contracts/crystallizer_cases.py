@@ -13,6 +13,7 @@ from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer,
     AntisolventCrystallizer,
 )
+from granum.crystallization.equipment.hydroxides import HydroxidePrecipitator
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
@@ -177,6 +178,22 @@ def mixed(classes: int) -> dict[str, Case]:
                 (f["feed"].slurry_volume_flow + f["reagent"].slurry_volume_flow) * 10.0 ** (1.5 + 1.5 * u[1]),
                 PowerLawGrowth(10.0 ** (-15.0 + 2.0 * u[2]), 1.5 + u[3]),
                 PowerLawNucleation(10.0 ** (5.0 + 3.0 * u[4]), 1.5 + u[5]),
+                rotation_speed=10.0 + 20.0 * u[2],
+            ),
+        ),
+        "hydroxide": Case(
+            mixture_of(
+                ["water", "magnesium chloride", "sodium hydroxide", "sodium chloride"],
+                ["magnesium hydroxide"],
+                [],
+                np.geomspace(1e-7, 4e-4, classes + 1),
+            ),
+            _exchanging,
+            lambda f, u: HydroxidePrecipitator(
+                285.0 + 30.0 * u[0],
+                (f["feed"].slurry_volume_flow + f["reagent"].slurry_volume_flow) * 10.0 ** (1.5 + 1.5 * u[1]),
+                PowerLawGrowth(10.0 ** (-12.0 + 2.0 * u[2]), 1.5 + u[3]),
+                PowerLawNucleation(10.0 ** (6.0 + 3.0 * u[4]), 1.5 + u[5]),
                 rotation_speed=10.0 + 20.0 * u[2],
             ),
         ),

@@ -47,6 +47,7 @@ QUICK = (
     "liquid carbon",
     "salt pair",
     "exchange",
+    "hydroxide",
     "uptake",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)

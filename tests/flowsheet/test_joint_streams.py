@@ -294,6 +294,7 @@ EVAPORATORS = {
 ELSEWHERE = {
     "crystallization.antisolvent_batch_crystallizer",
     "crystallization.antisolvent_crystallizer",
+    "crystallization.hydroxide_precipitator",
     "crystallization.impurity_uptake",  # needs species in crystals: test_uptake
     "crystallization.precipitator",
     "crystallization.two_salt_crystallizer",

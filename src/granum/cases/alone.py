@@ -78,7 +78,7 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
             put(described, word, _read(word, value))
         else:
             _say(thing, found, own, word, _read(word, value))
-    _drop_what_is_gone(mixture, feeds)
+    _drop_what_is_gone(mixture, feeds, words or {})
     _drop_laws_of({name for _phase, name in before - _present(mixture)}, own, words or {})
     for port, feed in feeds.items():
         feeds[port] = {"to": f"{name}.{port}"} | feed
@@ -135,11 +135,22 @@ def _for(thing: Any) -> str:
     return _("for {owner}").format(owner=thing.card.key)
 
 
-def _drop_what_is_gone(mixture: Mapping[str, Any], feeds: Mapping[str, dict[str, Any]]) -> None:
-    """Shares of substances that are no longer there."""
+def _drop_what_is_gone(
+    mixture: Mapping[str, Any], feeds: Mapping[str, dict[str, Any]], said: Mapping[str, Any]
+) -> None:
+    """Shares of substances that are no longer there; with them those of the example that remain, unless
+    somebody said some.
+    """
     for phase, shares in PHASES.items():
-        for feed in feeds.values():
-            if set(feed.get(shares, {})) - set(mixture.get(phase, ())):
+        for port, feed in feeds.items():
+            own = {word for word in said if word.startswith(f"{port}.{shares}.")}
+            gone = set(feed.get(shares, {})) - set(mixture.get(phase, ()))
+            if gone and own:
+                kept = {
+                    n: v for n, v in feed[shares].items() if n not in gone or f"{port}.{shares}.{n}" in own
+                }
+                feed[shares] = kept
+            elif gone and f"{port}.{shares}" not in said:
                 del feed[shares]
 
 

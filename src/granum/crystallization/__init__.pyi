@@ -52,6 +52,10 @@ from granum.crystallization.equipment.boiling import (
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
 )
+from granum.crystallization.equipment.hydroxides import (
+    HydroxideFigures as HydroxideFigures,
+    HydroxidePrecipitator as HydroxidePrecipitator,
+)
 from granum.crystallization.equipment.in_time import (
     Crystallized as Crystallized,
     InTime as InTime,
@@ -74,6 +78,7 @@ from granum.crystallization.equipment.oslo import (
     OsloFigures as OsloFigures,
 )
 from granum.crystallization.equipment.precipitator import (
+    Precipitating as Precipitating,
     Precipitator as Precipitator,
     PrecipitatorFigures as PrecipitatorFigures,
     Reacted as Reacted,
@@ -176,6 +181,12 @@ from granum.crystallization.formulas.growth import (
     growth_rate_birth_and_spread as growth_rate_birth_and_spread,
     growth_rate_power as growth_rate_power,
     growth_rate_spiral as growth_rate_spiral,
+)
+from granum.crystallization.formulas.hydroxides import (
+    HydroxideRange as HydroxideRange,
+    SaturatedHydroxide as SaturatedHydroxide,
+    ph_precipitation_hydroxide as ph_precipitation_hydroxide,
+    ph_saturated_hydroxide as ph_saturated_hydroxide,
 )
 from granum.crystallization.formulas.impurities import (
     ImpededGrowth as ImpededGrowth,
@@ -405,6 +416,7 @@ from granum.crystallization.vessels.polymorphs import (
     polymorph_batch as polymorph_batch,
 )
 from granum.crystallization.vessels.precipitation import (
+    HydroxideEquilibrium as HydroxideEquilibrium,
     Ions as Ions,
     PrecipitationCourse as PrecipitationCourse,
     ReagentAddition as ReagentAddition,

@@ -68,6 +68,7 @@ from granum.materials.formulas.ice import (
 from granum.materials.formulas.precipitation import (
     activity_coefficient_davies as activity_coefficient_davies,
     deprotonated_fraction as deprotonated_fraction,
+    ionization_exponent_water as ionization_exponent_water,
     salt_molality_from_product as salt_molality_from_product,
 )
 from granum.materials.formulas.properties import (

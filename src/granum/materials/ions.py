@@ -25,6 +25,7 @@ CATIONS = {
     "Pb": (2, 207.2),
 }
 ANIONS = {
+    "OH": (-1, 17.00734),
     "F": (-1, 18.998403),
     "Cl": (-1, 35.4527),
     "Br": (-1, 79.904),
@@ -90,8 +91,8 @@ class Ions(NamedTuple):
 def ions_of(formula: str) -> Ions | None:
     """The ions of a salt of one cation and one anion; None where a formula is not one of these.
 
-    Acids, hydroxides and the salts of weak acids with hydrogen of their own are left out: what they dissolve
-    into depends on the pH.
+    Acids and the salts of weak acids with hydrogen of their own are left out: what they dissolve into
+    depends on the pH.
 
     >>> ions_of("Na2SO4").cation_count, ions_of("CaSO4.2H2O").water_count, ions_of("C6H8O7")
     (2, 2, None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -31,7 +32,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.crystallization.equipment.batch import BatchOutlets
 from granum.crystallization.equipment.msmpr import STEADY
-from granum.crystallization.equipment.roles import Roles, with_crystals
+from granum.crystallization.equipment.roles import SMALLEST, Roles, with_crystals
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.formulas.mixing_times import (
     induction_time_volume,
@@ -63,6 +64,7 @@ from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated
 BEGUN = 0.01  # of the precipitate: crystals that end the induction time
 STILLEST = 1e-9  # W/kg, of a vessel whose stirrer stands
 LONGEST = 1e12  # s, where nothing is ever born
+HYDROXIDE = "OH-"
 
 UNSOLVED = (
     "No supersaturation was found at which the crystals made are those that the reaction leaves: check "
@@ -124,29 +126,8 @@ def exchange_of(mixture: Mixture, solid: int) -> tuple[Exchange, dict[int, Any]]
     return ways[0], ions
 
 
-@equipment(
-    "precipitator",
-    source="mullin2001, ch. 8; davies1962, ch. 3; randolph1988, ch. 4",
-    title="Continuous precipitator (reactive crystallization)",
-    equation=(
-        r"S = \left(\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}}\right)^{1/(p+q)},\quad "
-        r"M_T = 6\,k_v \rho_c B_0 G^3\tau^4"
-    ),
-    typical={"volume": (0.1, 10.0)},
-)
-class Precipitator(Stirred, Unit):
-    """Mixed vessel into which two solutions run, each with one ion of a sparingly soluble salt, which
-    crystallizes by nucleation and growth.
-
-    The driving force is that of ion activities (Davies) against the solubility product at the temperature:
-    growth and nucleation laws take the ratio of the supersaturation S to 1. The supersaturation of the vessel
-    is the one at which the crystals made are those that the ions leave; crystals that come with a feed grow
-    on, and do not dissolve. All ions are free: complexes, hydrolysis and weak acids are not counted. The
-    check of mixing compares the time to mix to 95 % and on the smallest scale with that in which 1 % of the
-    crystals would form in both feeds, mixed: where mixing takes longer, the crystals depend on where the
-    feeds run in, and are more and smaller. A precipitator wants a ``rotation_speed``: the least that keeps
-    fine crystals off the bottom mixes slowly.
-    """
+class Precipitating(Stirred, Unit):
+    """What the precipitators share; each says by which equilibrium its solid is dissolved."""
 
     temperature: Temperature
     volume: VesselVolume
@@ -160,6 +141,7 @@ class Precipitator(Stirred, Unit):
         {name: limit for name, limit in STEADY.items() if name != "time"}
         | SUSPENDED
         | {
+            "smallest": Limit(SMALLEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
             "mixed": Limit(
                 "time of mixing over time of the first crystals", 0.0, 1.0, "dimensionless", "baldyga1999"
             ),
@@ -175,6 +157,7 @@ class Precipitator(Stirred, Unit):
             raise CaseError(_("The mixture has no solid that could crystallize."))
         solid = mixture.index("solids", self.solid) if self.solid else 0
         way, ions = exchange_of(mixture, solid)
+        equilibrium = self._equilibrium(way)
         met, T = feed + reagent, jnp.asarray(self.temperature, dtype=float)
         M, whole = way.anhydrous_mass, way.anhydrous_mass + way.water_mass
         x = M / whole
@@ -197,7 +180,7 @@ class Precipitator(Stirred, Unit):
         )
         held = jnp.sum(crystals)
         reacting = Reacting(
-            SaltEquilibrium(way.salt, M),
+            equilibrium,
             T,
             dissolved + x * held,
             met.liquid[0] + (1.0 - x) * held,
@@ -252,7 +235,11 @@ class Precipitator(Stirred, Unit):
         )
         return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow - reagent.enthalpy_flow)
 
-    def figures(
+    @abstractmethod
+    def _equilibrium(self, way: Exchange) -> SaltEquilibrium:
+        """Of the solid that falls; refuses one that is not of this kind."""
+
+    def _common(
         self, inside: Reacted, outlets: BatchOutlets, feed: Stream, reagent: Stream
     ) -> PrecipitatorFigures:
         state, reacting = inside.state, inside.reacting
@@ -307,7 +294,7 @@ class Precipitator(Stirred, Unit):
         self,
         inside: Reacted,
         outlets: BatchOutlets,
-        figures: PrecipitatorFigures,
+        figures: Any,
         feed: Stream,
         reagent: Stream,
     ) -> dict[str, Any]:
@@ -315,6 +302,7 @@ class Precipitator(Stirred, Unit):
             "crowded": outlets.product.solids_volume_fraction,
             "present": jnp.where(inside.state.washed_out, 0.0, 1.0),
             "largest": outlets.product.size_fractions[-1],
+            "smallest": outlets.product.size_fractions[0],
             "mixed": safe_divide(figures.mixing_time, figures.induction_time, math.inf),
             "strength": figures.ionic_strength,
         } | self.stirrer_measured(outlets.product, self.volume)
@@ -323,9 +311,49 @@ class Precipitator(Stirred, Unit):
         self,
         inside: Reacted,
         outlets: BatchOutlets,
-        figures: PrecipitatorFigures,
+        figures: Any,
         feed: Stream,
         reagent: Stream,
     ) -> dict[str, Any]:
         duty, T = outlets.heat_duty, self.temperature
         return heated(duty, T) | cooled(duty, T) | self.stirrer_power(outlets.product, self.volume)
+
+
+@equipment(
+    "precipitator",
+    source="mullin2001, ch. 8; davies1962, ch. 3; randolph1988, ch. 4",
+    title="Continuous precipitator (reactive crystallization)",
+    equation=(
+        r"S = \left(\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}}\right)^{1/(p+q)},\quad "
+        r"M_T = 6\,k_v \rho_c B_0 G^3\tau^4"
+    ),
+    typical={"volume": (0.1, 10.0)},
+)
+class Precipitator(Precipitating):
+    """Mixed vessel into which two solutions run, each with one ion of a sparingly soluble salt, which
+    crystallizes by nucleation and growth.
+
+    The driving force is that of ion activities (Davies) against the solubility product at the temperature:
+    growth and nucleation laws take the ratio of the supersaturation S to 1. The supersaturation of the vessel
+    is the one at which the crystals made are those that the ions leave; crystals that come with a feed grow
+    on, and do not dissolve. All ions are free: complexes, hydrolysis and weak acids are not counted. The
+    check of mixing compares the time to mix to 95 % and on the smallest scale with that in which 1 % of the
+    crystals would form in both feeds, mixed: where mixing takes longer, the crystals depend on where the
+    feeds run in, and are more and smaller. A precipitator wants a ``rotation_speed``: the least that keeps
+    fine crystals off the bottom mixes slowly.
+    """
+
+    def _equilibrium(self, way: Exchange) -> SaltEquilibrium:
+        if way.salt.anion == HYDROXIDE:
+            raise CaseError(
+                _(
+                    "'{solid}' is a hydroxide, which dissolves by the pH: '{unit}' counts "
+                    "the ions of water too."
+                ).format(solid=way.salt.label, unit="crystallization.hydroxide_precipitator")
+            )
+        return SaltEquilibrium(way.salt, way.anhydrous_mass)
+
+    def figures(
+        self, inside: Reacted, outlets: BatchOutlets, feed: Stream, reagent: Stream
+    ) -> PrecipitatorFigures:
+        return self._common(inside, outlets, feed, reagent)

@@ -24,6 +24,7 @@ TOO_COLD = (
     "or more heat."
 )
 LARGEST = "crystals in the largest size class, which takes what is larger"
+SMALLEST = "crystals in the smallest size class, which takes what is smaller"
 
 
 class Roles(NamedTuple):

@@ -27,7 +27,11 @@ from granum.crystallization.population.operations import Operation
 from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import mass_mean, narrow_seeds, simulated
 from granum.crystallization.vessels.crystals import Crystal
-from granum.materials.formulas.precipitation import activity_coefficient_davies
+from granum.materials.formulas.precipitation import (
+    activity_coefficient_davies,
+    hydroxide_molality,
+    ionization_exponent_water,
+)
 from granum.materials.library import salt as material_salt
 from granum.materials.salts import Salt
 from granum.numerics.smooth import safe_power
@@ -68,19 +72,28 @@ class SaltEquilibrium(Equilibrium):
         )
         return cation, anion
 
-    def ratio(self, contents: Ions, crystals: Any) -> Any:
-        s = self.salt
-        cation, anion = (jnp.maximum(m, TRACE) for m in self.molalities(contents, crystals))
+    def free_anion(self, anion: Any, coefficient: Any, temperature: Any) -> Any:
+        """What of the anion is free, mol/kg, where its activity coefficient is this."""
+        return anion
+
+    def activities(self, contents: Ions, crystals: Any) -> tuple[Any, Any]:
+        """Of cation and anion, mol/kg."""
+        s, T = self.salt, contents.temperature
+        cation, anion = self.molalities(contents, crystals)
         charges = (
             cation * s.cation_charge**2 + anion * s.anion_charge**2 + contents.spectators / contents.solvent
         )
         strength = jnp.minimum(0.5 * charges, LARGEST_STRENGTH)
-        activity = [
-            activity_coefficient_davies.function(z, strength, contents.temperature)
-            for z in (s.cation_charge, s.anion_charge)
-        ]
-        logs = s.cation_count * jnp.log(activity[0] * cation) + s.anion_count * jnp.log(activity[1] * anion)
-        return self.molar_mass * jnp.exp(logs / s.ion_count)
+        one, other = (
+            activity_coefficient_davies.function(z, strength, T) for z in (s.cation_charge, s.anion_charge)
+        )
+        free = self.free_anion(anion, other, T)
+        return one * jnp.maximum(cation, TRACE), other * jnp.maximum(free, TRACE)
+
+    def ratio(self, contents: Ions, crystals: Any) -> Any:
+        s = self.salt
+        cation, anion = (jnp.log(a) for a in self.activities(contents, crystals))
+        return self.molar_mass * jnp.exp((s.cation_count * cation + s.anion_count * anion) / s.ion_count)
 
     def saturated(self, contents: Ions) -> Any:
         return (
@@ -88,6 +101,19 @@ class SaltEquilibrium(Equilibrium):
             * safe_power(self.salt.product_at(contents.temperature), 1.0 / self.salt.ion_count)
             + 0.0 * contents.solvent
         )
+
+
+class HydroxideEquilibrium(SaltEquilibrium):
+    """The same of a hydroxide, with the ions of water itself: what the other ions leave to be balanced is
+    hydroxide less hydrogen.
+    """
+
+    def free_anion(self, anion: Any, coefficient: Any, temperature: Any) -> Any:
+        return hydroxide_molality(anion, coefficient, temperature)
+
+    def ph_value(self, contents: Ions) -> Any:
+        _cation, hydroxide = self.activities(contents, 0.0)
+        return ionization_exponent_water.function(contents.temperature) + jnp.log10(hydroxide)
 
 
 class ReagentAddition(Operation):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import jax.numpy as jnp
 
@@ -37,6 +37,34 @@ def activity_coefficient_davies(
     A = 1.8246e6 / (dielectric * temperature) ** 1.5
     root = jnp.sqrt(jnp.maximum(ionic_strength, 1e-16))
     return 10.0 ** (-A * charge_number**2 * (root / (1.0 + root) - 0.3 * ionic_strength))
+
+
+@formula(
+    source="plummer1982, table 1",
+    equation=r"\mathrm{p}K_w = 283.971 + 0.05069842\,T - 13323/T - 102.24447 \log_{10}T + 1119669/T^2",
+    fitted={"temperature": (273.15, 373.15)},
+    typical={"temperature": (280.0, 360.0)},
+)
+def ionization_exponent_water(temperature: Temperature = ROOM) -> Number:
+    """Exponent of the ion product of water on activities, 14.00 at 25 °C: water is the more ionized the
+    hotter it is.
+
+    The coefficients were read in the databases that took them over (PHREEQC); the paper was not opened.
+
+    >>> round(ionization_exponent_water(temperature="25 degC"), 2)
+    14.0
+    """
+    T = temperature
+    return 283.971 + 0.05069842 * T - 13323.0 / T - 102.24447 * jnp.log10(T) + 1119669.0 / T**2
+
+
+def hydroxide_molality(net: Any, activity_coefficient: Any, temperature: Any) -> Any:
+    """Free hydroxide by the charge balance with the hydrogen ions that water itself gives, mol/kg: ``net`` is
+    the hydroxide that all other ions leave to be balanced, negative in an acid.
+    """
+    product = 10.0 ** -ionization_exponent_water.function(temperature) / activity_coefficient**2
+    root = jnp.sqrt(net**2 + 4.0 * product)
+    return jnp.where(net > 0.0, 0.5 * (net + root), 2.0 * product / (root + jnp.abs(jnp.minimum(net, 0.0))))
 
 
 @formula(
