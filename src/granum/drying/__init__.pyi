@@ -185,6 +185,7 @@ from granum.drying.formulas.atomizers import (
     drying_time_droplet as drying_time_droplet,
 )
 from granum.drying.formulas.beds import (
+    bypass_fraction_groenewold_tsotsas as bypass_fraction_groenewold_tsotsas,
     heat_transfer_coefficient_through_bed as heat_transfer_coefficient_through_bed,
     moisture_ratio_hukill as moisture_ratio_hukill,
     pressure_gradient_shedd as pressure_gradient_shedd,

@@ -34,6 +34,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.drying.formulas.beds import bypass_fraction_groenewold_tsotsas
 from granum.drying.gas_solid.cells import Contact, Inlet, Network, Profile
 from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, Through, ready, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
@@ -42,11 +43,6 @@ from granum.drying.gas_solid.matter import Matter
 from granum.drying.gas_solid.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
 from granum.drying.kinds import LostHeat
 from granum.fluidization.equipment.bed import FluidizedBed
-from granum.fluidization.formulas.bubbles import (
-    bubble_diameter_darton,
-    bubble_exchange_rate_cloud,
-    bubble_rise_velocity_davidson_harrison,
-)
 from granum.fluidization.formulas.heat import heat_transfer_coefficient_zabrodsky, nusselt_number_gunn
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
 from granum.materials.formulas.water import water_boiling_temperature
@@ -63,7 +59,6 @@ COILS = (
     "of them, are our own estimate"
 )
 DISTRIBUTOR = 0.3  # of the pressure drop of the bed
-AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
 BUNDLE = 0.7  # of the greatest heat transfer coefficient, on tubes in a bundle
 LEAST = 1.0  # K between steam and bed, below which coils would only grow
 
@@ -99,12 +94,12 @@ class FluidBedDryer(CellDryer):
 
     With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed
     times, so that some leave as they came. With more cells solid flows along the bed through that many
-    tanks in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its
-    way up, unless it is given. ``coil_duty`` is heat by coils in the bed, alike in all cells; their area
-    follows from steam of ``pressure_steam``, the bed around them and 70 % of Zabrodsky's greatest
-    coefficient, the resistance of steam and wall left out. With ``entrainment`` the exhaust takes fines along
-    by their elutriation constant, as ``fluidization.fluidized_bed`` does; else all solid overflows. An
-    ``explosion_vent`` is that of the chamber.
+    tanks in series, each with fresh gas. The bypass is the bubble gas that the dense phase has not reached,
+    after Groenewold and Tsotsas, unless it is given. ``coil_duty`` is heat by coils in the bed, alike in all
+    cells; their area follows from steam of ``pressure_steam``, the bed around them and 70 % of Zabrodsky's
+    greatest coefficient, the resistance of steam and wall left out. With ``entrainment`` the exhaust takes
+    fines along by their elutriation constant, as ``fluidization.fluidized_bed`` does; else all solid
+    overflows. An ``explosion_vent`` is that of the chamber.
     """
 
     area: Area
@@ -173,19 +168,12 @@ class FluidBedDryer(CellDryer):
         )
 
     def bypass(self, feed: Stream, gas: Stream) -> Any:
-        """Share of the gas that leaves as it entered: bubbles after exchange with their clouds, whose
-        particles dry too, over the settled height.
-        """
+        """Share of the gas that leaves as it entered."""
         if self.bypass_fraction is not None:
             return self.bypass_fraction
-        U, first = gas.gas_volume_flow / self.area, self.minimum_velocity(feed, gas)
-        H = self.height(feed)
-        diameter = bubble_diameter_darton.function(U, jnp.minimum(first, U), 0.5 * H, 1e-4)
-        rise = bubble_rise_velocity_davidson_harrison.function(U, jnp.minimum(first, U), diameter)
-        exchange = bubble_exchange_rate_cloud.function(
-            jnp.minimum(first, U), diameter, HumidMixture(gas.mixture).diffusivity(AMBIENT, gas.pressure)
+        return bypass_fraction_groenewold_tsotsas.function(
+            gas.gas_volume_flow / self.area, self.minimum_velocity(feed, gas), self.height(feed)
         )
-        return jnp.maximum(1.0 - first / U, 0.0) * jnp.exp(-exchange * H / rise)
 
     def _specific(self, feed: Stream, gas: Stream) -> Any:
         """Heat transfer coefficient times surface per dry solid of each size, W/(K kg), with Gunn's Nusselt
