@@ -192,3 +192,14 @@ def test_what_was_not_said_is_told() -> None:
     _status, shown, _said = granum("calc", "crystallization.msmpr", "volume=5m3")
     assert "solubility.solute=potassium nitrate" in shown
     assert ", volume=" not in shown
+
+
+def test_another_gas_has_the_share_of_the_one_it_replaces() -> None:
+    feed = tables("drying.rotary_dryer", {"mixture.gases": "nitrogen,water"})["feeds"]["gas"]
+    usual = tables("drying.rotary_dryer")["feeds"]["gas"]["gas"]
+    assert feed["gas"] == {"nitrogen": usual["dry air"], "water": usual["water"]}
+
+
+def test_gases_without_shares_are_asked_for() -> None:
+    with pytest.raises(GranumError, match=r"gas\.nitrogen, gas\.acetone, gas\.water"):
+        alone("drying.rotary_dryer", **{"mixture.gases": "nitrogen,acetone,water"})

@@ -26,8 +26,7 @@ from granum.core.documents import table_in
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.run import Line
-
-PHASES = {"solids": "solid", "liquids": "liquid", "gases": "gas"}
+from granum.streams.feeding import PHASES
 
 
 @cache
@@ -139,13 +138,16 @@ def _drop_what_is_gone(
     mixture: Mapping[str, Any], feeds: Mapping[str, dict[str, Any]], said: Mapping[str, Any]
 ) -> None:
     """Shares of substances that are no longer there; with them those of the example that remain, unless
-    somebody said some.
+    somebody said some. A gas that takes the place of another has its share.
     """
     for phase, shares in PHASES.items():
         for port, feed in feeds.items():
             own = {word for word in said if word.startswith(f"{port}.{shares}.")}
-            gone = set(feed.get(shares, {})) - set(mixture.get(phase, ()))
-            if gone and own:
+            there, wanted = feed.get(shares, {}), mixture.get(phase, ())
+            gone, new = set(there) - set(wanted), [name for name in wanted if name not in there]
+            if phase == "gases" and len(gone) == len(new) == 1 and not own and f"{port}.{shares}" not in said:
+                feed[shares] = {new[0] if name in gone else name: share for name, share in there.items()}
+            elif gone and own:
                 kept = {
                     n: v for n, v in feed[shares].items() if n not in gone or f"{port}.{shares}.{n}" in own
                 }

@@ -22,6 +22,8 @@ from granum.streams.stream import Stream, empty
 
 Given = Any
 """A number in SI, or a text with its unit."""
+PHASES = {"solids": "solid", "liquids": "liquid", "gases": "gas"}
+"""By phase of a mixture the word of a feed for the shares of its species."""
 LEAST_INSIDE = 0.98  # of a feed that its size classes must hold
 
 
@@ -65,6 +67,13 @@ def feed(
             found[mixture.index(phase, name)] = quantity(value, "MassFraction", name)
         if not given and len(found) == 1:
             found[0] = 1.0
+        elif not given:
+            names = ", ".join(f"{PHASES[phase]}.{species.name}" for species in getattr(mixture, phase))
+            raise InputError(
+                _("{where}: say the shares of the {phase}: {names}.").format(
+                    where=where, phase=_(phase), names=names
+                )
+            )
         if abs(found.sum() - 1.0) > 1e-6:
             raise InputError(
                 _("{where}: the shares of the {phase} add up to {total}, not 1.").format(
