@@ -29,7 +29,7 @@ from granum.crystallization.formulas.solubility_laws import AntisolventSolubilit
 from granum.crystallization.population.lagrangian import Model, SolventVolume, march
 from granum.crystallization.population.operations import Addition, Flashing, HeatData, Jacketed, Programmed
 from granum.crystallization.population.packets import Seeds, SizeMap
-from granum.crystallization.vessels.crystals import Crystal
+from granum.crystallization.vessels.crystals import Crystal, ratio_left
 
 
 def published(mass=0.5, steps=400, **more):
@@ -286,3 +286,32 @@ def test_antisolvent_drives_crystallization():
     ideal = 0.3 - 1.5 * 0.3 * np.exp(-4.0 * 0.5 / 1.5)
     assert float(found.crystals[-1] - 0.01) == pytest.approx(ideal, rel=0.02)
     assert float(found.solute_per_solvent[-1] * 1.5 + found.crystals[-1]) == pytest.approx(0.31, abs=1e-13)
+
+
+def test_crystals_that_bind_solvent_never_bind_more_than_there_is():
+    """A burst of a pentahydrate in a rich liquor: the crystals are those of the balance at saturation, and on
+    the way past the end no liquor of two deficits is taken for a rich one.
+    """
+    x, T_end = 0.64, 287.15
+    made = Model(
+        PolynomialSolubility([0.14, 4e-3, 5e-5]),
+        PowerLawGrowth(6.3e-4, 1.78),
+        PowerLawNucleation(4.4e8, 1.73),
+        Crystal(2284.0, solute_fraction=x),
+        SolventVolume(1000.0),
+    )
+    times = jnp.linspace(0.0, 9000.0, 101)
+    found = march(
+        made, Programmed(lambda t: 318.95 - (318.95 - T_end) * t / 9000.0), seeds(2.4), 0.6, 1.0, times
+    )
+    assert float(jnp.max(found.residual)) < 1e-6
+    c, held = 0.14 + 4e-3 * 14.0 + 5e-5 * 14.0**2, 2.4e-3
+    everything, water = 0.6 + x * held, 1.0 + (1.0 - x) * held
+    assert float(found.crystals[-1]) == pytest.approx(
+        (everything - water * c) / (x - (1.0 - x) * c), rel=0.02
+    )
+
+
+def test_more_crystals_leave_a_poorer_liquor():
+    crystals = np.linspace(0.0, 5.0, 101)
+    assert np.all(np.diff(ratio_left(0.464, 1.0, crystals, 0.64)) < 0.0)

@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import equinox as eqx
+import jax.numpy as jnp
 
 from granum.numerics.smooth import safe_divide
+
+DRY = 1e-12  # of the solvent, which no crystals bind
 
 
 class Crystal(eqx.Module):
@@ -51,6 +54,11 @@ def crystals_at(
 
 
 def ratio_left(solute: Any, solvent: Any, crystals: Any, solute_fraction: Any, bound: Any = None) -> Any:
-    """Solute per solvent of the liquor once a mass of crystals has formed: the inverse of ``crystals_at``."""
+    """Solute per solvent of the liquor once a mass of crystals has formed: the inverse of ``crystals_at``.
+
+    It falls on with crystals that would bind more solvent than there is, where a quotient of two deficits
+    would be a rich liquor again.
+    """
     bound = 1.0 - solute_fraction if bound is None else bound
-    return safe_divide(solute - solute_fraction * crystals, solvent - bound * crystals)
+    left = jnp.maximum(solvent - bound * crystals, DRY * abs(solvent))
+    return safe_divide(solute - solute_fraction * crystals, left)

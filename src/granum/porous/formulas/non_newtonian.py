@@ -120,6 +120,7 @@ def dynamic_viscosity_permeable_christopher_middleman(
         r"{\varepsilon\,\psi d_p}"
     ),
     title="Pressure gradient at which a liquid with a yield stress begins to flow through a bed",
+    family="pressure_gradient_least",
     typical={"particle_diameter": (1e-4, 5e-3), "yield_stress": (0.1, 20.0)},
 )
 def pressure_gradient_yield_bed(
