@@ -181,7 +181,7 @@ HeatTransferCoefficient = Annotated[
     Any, _positive("heat transfer coefficient", "W/(m^2*K)", "W/(m^2*K)", "kcal/(m^2*hour*K)")
 ]
 HeatFlux = Annotated[Any, _any("heat flux", "W/m^2", "kW/m^2")]
-MassTransferCoefficient = Annotated[Any, _positive("mass transfer coefficient", "m/s", "mm/s")]
+MassTransferCoefficient = Annotated[Any, _positive("mass transfer coefficient", "m/s", "mm/s", "um/s")]
 Diffusivity = Annotated[Any, _positive("diffusivity", "m^2/s", "cm^2/s")]
 # rates of crystals
 GrowthRate = Annotated[Any, _any("growth rate", "m/s", "um/s", "um/min", "nm/s")]
