@@ -57,7 +57,7 @@ def test_relative_humidity_is_that_of_the_pair(gases: tuple[str, str]) -> None:
     [
         ({}, "nothing flows"),
         ({"mass_flow": 1.0, "liquid_flow": 1.0}, "not both"),
-        ({"solid_flow": 1.0, "sizes": EVEN}, "add up to 0"),
+        ({"solid_flow": 1.0, "sizes": EVEN}, "say the shares of the solids: solid.quartz, solid."),
         ({"solid_flow": 1.0, "solid": {"quartz": 1.0}}, "size distribution"),
         ({"solid_flow": 1.0, "solid": {"quartz": 1.0}, "sizes": {"fractions": [1.0]}}, "2 values"),
         ({"solid_flow": 1.0, "solid": {"quarz": 1.0}, "sizes": EVEN}, "quartz"),
