@@ -106,6 +106,14 @@ def test_titles_are_in_the_language_of_the_page(client: Any) -> None:
     assert "Filtre-presse à plateaux et cadres" in [hit["title"] for hit in hits]
 
 
+def test_groups_of_laws_have_french_names(client: Any) -> None:
+    """A family whose own name is no word of the field has that of what its cards give."""
+    cards = client.get("/api/cards?lang=fr").json()["cards"]
+    called = {card["family"]: card["family_title"] for card in cards if card["family"]}
+    assert called["nucleation_formula"] == "Vitesse de nucléation"
+    assert called["hindrance"] != "Hindrance"
+
+
 @pytest.mark.parametrize("asked", ["", " ", "%", "'; --", "\x00", "a" * 5000, "🦆", "-", "/api"])
 def test_whatever_is_typed_is_answered(client: Any, asked: str) -> None:
     assert client.get("/api/search", params={"q": asked}).status_code == 200

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import granum as gr
-from granum.core.errors import GranumError
+from granum.cases import read_text
+from granum.core.errors import ConvergenceError, GranumError
 from granum.materials.formulas.precipitation import hydroxide_molality
 
 cz = gr.crystallization
@@ -80,3 +81,59 @@ def test_each_precipitator_names_the_other():
     }
     with pytest.raises(GranumError, match="hydroxide_precipitator"):
         gr.alone("crystallization.precipitator", **salt).solve()
+
+
+COPPER = """
+title = "Copper by lye"
+[solid."copper(II) hydroxide"]
+formula = "Cu(OH)2"
+molar_mass = 0.09756
+density = {{ value = 3360.0, source = "haynes2014, sec. 4" }}
+heat_capacity = {{ value = 900.0, source = "assumed" }}
+[mixture]
+liquids = ["water", "copper sulfate", "sodium hydroxide", "sodium sulfate"]
+solids = ["copper(II) hydroxide"]
+sizes = {{ smallest = "0.1 um", largest = "200 um", classes = 40 }}
+[feeds.metal]
+to = "vessel.feed"
+liquid_flow = "2 t/h"
+liquid = {{ water = 0.99, "copper sulfate" = 0.01 }}
+[feeds.lye]
+to = "vessel.reagent"
+liquid_flow = "1 t/h"
+liquid = {{ water = {water}, "sodium hydroxide" = {lye} }}
+[units.vessel]
+model = "crystallization.hydroxide_precipitator"
+temperature = "25 degC"
+volume = "1 m3"
+rotation_speed = "200 rpm"
+growth = {{ law = "power_law_growth", growth_coefficient = 1e-11, growth_order = 1.5 }}
+[units.vessel.nucleation]
+law = "secondary_nucleation"
+nucleation_coefficient = 1e7
+nucleation_order = 1.8
+magma_order = 0
+"""
+
+
+def copper(lye: float):
+    return read_text(COPPER.format(lye=lye, water=1.0 - lye)).solve()
+
+
+def test_copper_takes_its_share_of_the_lye():
+    """Two hydroxides for each copper by hand; what is left of the lye, with Davies, is the pH."""
+    v = copper(0.02).units["vessel"].values
+    copper_fed, lye_fed = 20.0 / 0.159609, 20.0 / 0.0399971  # mol/h
+    water = 1980.0 + 980.0
+    assert float(v.yield_fraction) == pytest.approx(1.0, abs=1e-6)
+    sodium, sulfate = lye_fed / water, copper_fed / water
+    left = (lye_fed - 2.0 * copper_fed) / water
+    root = np.sqrt(0.5 * (sodium + 4.0 * sulfate + left))
+    activity = 10 ** (-0.509 * (root / (1 + root) - 0.3 * root**2))
+    assert float(v.ph_value) == pytest.approx(14.0 + np.log10(activity * left), abs=0.005)
+
+
+@pytest.mark.parametrize("lye", [0.0, 0.005])
+def test_a_metal_that_would_leave_an_acid_is_refused(lye: float):
+    with pytest.raises(ConvergenceError, match="leaves an acid"):
+        copper(lye)

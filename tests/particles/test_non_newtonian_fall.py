@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import granum as gr
 from granum.core.errors import ApplicabilityError, InputError
 
 P = gr.particles
+HANKS = (3.178, -0.7456, -0.04684, 0.05455, -0.01796, 2.4619e-3, -1.1418e-4)
 N = np.array([0.6, 0.7, 0.8, 0.9, 1.2, 1.4])
 
 
@@ -74,8 +77,7 @@ def test_fall_is_the_balance_of_weight_and_drag_and_rises_alike() -> None:
 def hanks(q: np.ndarray) -> np.ndarray:
     """Drag of spheres in Bingham liquids, equations 166 to 168 of Hanks."""
     x = np.log(q)
-    terms = (3.178, -0.7456, -0.04684, 0.05455, -0.01796, 2.4619e-3, -1.1418e-4)
-    return np.where(q <= 1.0, 24.0 / q, np.exp(sum(c * x**i for i, c in enumerate(terms))))
+    return np.where(q <= 1.0, 24.0 / q, np.exp(sum(c * x**i for i, c in enumerate(HANKS))))
 
 
 def test_bingham_fall_meets_the_drag_curve_of_hanks() -> None:
@@ -86,7 +88,27 @@ def test_bingham_fall_meets_the_drag_curve_of_hanks() -> None:
     assert Q.min() < 3.0
     assert Q.max() > 300.0
     needed = 4.0 * 9.80665 * d * (7850.0 - rho) / (3.0 * rho * v**2)
-    np.testing.assert_allclose(needed, hanks(Q), rtol=0.18)
+    np.testing.assert_allclose(needed, hanks(Q), rtol=0.18)  # the default drag is that of Newton's liquids
+
+
+def test_bingham_fall_with_the_drag_curve_of_hanks_is_that_of_his_equations() -> None:
+    """Equation 165 says with which number to enter his curve."""
+    d, rho, eta, tau = 5e-3, 1200.0, 0.05, 5.0
+
+    def curve(q):
+        return jnp.where(q <= 1.0, 24.0 / q, jnp.exp(sum(c * jnp.log(q) ** i for i, c in enumerate(HANKS))))
+
+    v = float(P.terminal_velocity_ansley_smith.function(d, 7850.0, rho, eta, tau, drag=curve))
+    by_hand = brentq(
+        lambda v: (
+            4.0 * 9.80665 * d * 6650.0 / (3.0 * rho * v**2)
+            - hanks(rho * v**2 / (eta * v / d + 7.0 * np.pi / 24.0 * tau))
+        ),
+        0.01,
+        5.0,
+        xtol=1e-14,
+    )
+    assert v == pytest.approx(by_hand, rel=1e-9)
 
 
 def test_held_where_the_yield_stress_carries_the_weight() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import shlex
+from collections import Counter
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -36,7 +37,7 @@ from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.glossary import glossary, term
 from granum.core.i18n import _, current_language
-from granum.core.index import entries
+from granum.core.index import Entry, entries
 from granum.core.search import search
 from granum.core.units import unit_system
 
@@ -509,13 +510,16 @@ def _inside(workspace: Path | None, path: str) -> Path:
     return place
 
 
-def _family_title(family: str) -> str:
-    label = term(family).label if family in glossary() else family.replace("_", " ")
+def _family_title(card: Entry) -> str:
+    """What a group of laws is called: its family where that is a word of the field, else what it gives."""
+    word = card.family if card.family in glossary() else card.gives.split()[0]
+    label = term(word).label
     return label[:1].upper() + label[1:]
 
 
 @cache
 def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
+    size = Counter(c.family for c in entries().values())
     found = [
         {
             "card": c.key,
@@ -524,7 +528,7 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
             "title": c.title,
             "summary": c.summary,
             "family": c.family,
-            "family_title": _family_title(c.family),
+            "family_title": _family_title(c) if c.family and size[c.family] > 1 else "",
         }
         for c in entries().values()
     ]

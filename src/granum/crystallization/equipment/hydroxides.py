@@ -92,7 +92,7 @@ class HydroxidePrecipitator(Precipitating):
     def inside(self, feed: Stream, reagent: Stream) -> Reacted:
         made = super().inside(feed, reagent)
         spent, saturated = made.reacting.measures(jnp.zeros_like(made.mixed))
-        unsolved((made.mixed <= 0.0) | (spent <= saturated), type(self).card, "acid", ACID)
+        unsolved(spent <= saturated, type(self).card, "acid", ACID)
         return made
 
     def figures(

@@ -21,7 +21,7 @@ from granum.core.kinds import (
 VISCOSITY = 2.1e-5  # Pa s, of air, for the Reynolds number at which the two printed forms meet
 BORDER = 350.0
 EXCHANGED = 0.05  # m of bed, over which bubbles pass on one transfer unit of all the gas
-LEAST = 1e-9  # share of the gas in bubbles
+LEAST = 1e-9  # share of the gas in bubbles, and m/s of gas
 
 
 @formula(
@@ -150,5 +150,6 @@ def bypass_fraction_groenewold_tsotsas(
     >>> round(bypass_fraction_groenewold_tsotsas(0.5, 0.25, "25 mm"), 3) == round(0.5 * 2.718282**-1, 3)
     True
     """
-    bubbles = jnp.clip(1.0 - minimum_fluidization_velocity / superficial_velocity, LEAST, 1.0)
+    flowing = jnp.maximum(superficial_velocity, LEAST)
+    bubbles = jnp.clip(1.0 - minimum_fluidization_velocity / flowing, LEAST, 1.0)
     return bubbles * jnp.exp(-height / (bubbles * EXCHANGED))
