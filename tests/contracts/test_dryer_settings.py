@@ -57,13 +57,14 @@ def general(inlets: dict[str, Stream], out: Any, figures: Any) -> dict[str, Any]
         jnp.stack([jnp.min(part, initial=0.0) for s in outlets for part in (s.solid, s.liquid, s.gas)])
     )
     hints = get_type_hints(type(figures), include_extras=True)
-    kept = [_possible(kind_of(hints[n]), jnp.asarray(v)) for n, v in figures._asdict().items()]
+    there = {n: v for n, v in figures._asdict().items() if v is not None}  # what a dryer has
+    kept = [_possible(kind_of(hints[n]), jnp.asarray(v)) for n, v in there.items()]
     return {
         "mass": found.mass <= CLOSURE,
         "energy": found.energy <= CLOSURE,
         "flows": least / largest >= LEAST,
         "saturation": jnp.all(saturation <= SATURATED),
-        **dict(zip(figures._asdict(), kept, strict=True)),
+        **dict(zip(there, kept, strict=True)),
     }
 
 
