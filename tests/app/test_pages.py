@@ -112,6 +112,26 @@ def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: st
     page.check(refused=True)
 
 
+def test_a_key_that_comes_with_the_echo_of_the_text_before_it_wins(page: Page) -> None:
+    """A length is understood and drawn; before the page has passed it on, one more key makes an area of it."""
+    page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
+    page.browser.execute_async_script(
+        "const field = document.querySelector(arguments[0]), done = arguments[1]; field.focus();"
+        "const type = (text) => { field.value = text;"
+        " field.dispatchEvent(new InputEvent('input', {bubbles: true})); };"
+        "const echoed = () => document.querySelector('[data-echo]')?.textContent.includes('4.39');"
+        "const watch = new MutationObserver(() => { if (!echoed()) return; watch.disconnect();"
+        " type('4.39 m2'); done(); });"
+        "watch.observe(document.body, {childList: true, subtree: true, characterData: true});"
+        "type('4.39 m');",
+        DIAMETER,
+    )
+    page.until(lambda: page.text(".quantity .out"))
+    page.settle()
+    assert not page.fresh(), "a result of the length stands beside the area"
+    assert page.one(DIAMETER).get_attribute("value") == "4.39 m2"
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_temperature_below_zero_is_typed(page: Page, language: str) -> None:
     page.open("calculate/materials.ice_vapor_pressure", language)

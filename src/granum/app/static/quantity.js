@@ -161,8 +161,10 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
     if (text) setUnit(given.unit);
   }, [text]);
   useEffect(() => {
-    if (reading?.number !== undefined) send(joined(reading), true);
-  }, [reading]); // the value as it was understood; the text stays as it was typed
+    // the value as it was understood, unless another key has come since; the text stays as it was typed
+    if (reading?.number !== undefined && kept(raw.current ?? '', menu) === reading.text)
+      send(joined(reading), true);
+  }, [reading]);
   const type = (next) => {
     setUnit(menu);
     setTyped(next);
