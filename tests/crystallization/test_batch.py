@@ -315,3 +315,8 @@ def test_crystals_that_bind_solvent_never_bind_more_than_there_is():
 def test_more_crystals_leave_a_poorer_liquor():
     crystals = np.linspace(0.0, 5.0, 101)
     assert np.all(np.diff(ratio_left(0.464, 1.0, crystals, 0.64)) < 0.0)
+
+
+def test_a_vessel_that_is_filled_on_the_way_to_a_solution_sends_on_no_flood():
+    """Evaporated before its feed has come: a deficit of solvent of a kilogram and traces of solute."""
+    assert abs(float(ratio_left(1e-12, -1.0, 0.0, 1.0))) < 1e-9

@@ -57,8 +57,10 @@ def ratio_left(solute: Any, solvent: Any, crystals: Any, solute_fraction: Any, b
     """Solute per solvent of the liquor once a mass of crystals has formed: the inverse of ``crystals_at``.
 
     It falls on with crystals that would bind more solvent than there is, where a quotient of two deficits
-    would be a rich liquor again.
+    would be a rich liquor again. Where there is no solvent to begin with, as where an empty feed is
+    evaporated on the way to the solution of a line, the quotient stands as it is.
     """
     bound = 1.0 - solute_fraction if bound is None else bound
-    left = jnp.maximum(solvent - bound * crystals, DRY * abs(solvent))
+    left = solvent - bound * crystals
+    left = jnp.where(solvent > 0.0, jnp.maximum(left, DRY * solvent), left)
     return safe_divide(solute - solute_fraction * crystals, left)
