@@ -113,7 +113,7 @@ def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: st
 
 
 def test_a_key_that_comes_with_the_echo_of_the_text_before_it_wins(page: Page) -> None:
-    """A length is understood and drawn; before the page has passed it on, one more key makes an area of it."""
+    """A length is understood and drawn; before the page passes it on, one more key makes an area of it."""
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
     page.browser.execute_async_script(
         "const field = document.querySelector(arguments[0]), done = arguments[1]; field.focus();"
