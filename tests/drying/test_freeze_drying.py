@@ -282,6 +282,11 @@ def test_freeze_dryer_in_a_line():
     assert all(c.ok for c in run.units["dryer"].checks)
     hot = run.line.with_values(**{"dryer.temperature_limit": 250.0, "dryer.duct_diameter": 0.1}).solve()
     assert [c.ok for c in hot.units["dryer"].checks] == [False, True, False]
+    # a cabinet of shelves 10 cm apart, pumped down in half an hour: V/t ln(p0/p) at 14 W per m³/h
+    uses, values = run.units["dryer"].as_json()["utilities"], run.units["dryer"].values
+    drying = (values.drying_time_primary + values.drying_time_secondary) / values.cycle_time
+    pumped = uses["area_installed"]["value"] * 0.1 / 0.5 * np.log(760.0 / 0.15)  # m³/h
+    assert uses["electric_power_vacuum"]["value"] == pytest.approx(13.9 * pumped * drying, rel=0.005)
 
 
 def test_layer_of_food():

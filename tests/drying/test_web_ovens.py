@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from tests.dust.test_collectors import alone
 
+import granum as gr
 from granum.core.errors import ConvergenceError, InputError
 from granum.drying.equipment.web_ovens import ImpingementDryer, RadiantDryer
 from granum.drying.formulas.assisted import drying_rate_assisted
@@ -132,3 +133,17 @@ def test_sized_length_reaches_its_moisture() -> None:
     assert float(stenter(length=float(unit.length))[0].moisture_dry_basis) == pytest.approx(0.07, abs=1e-4)
     with pytest.raises(InputError, match="This oven dries"):
         ImpingementDryer.size(3.0, FEED, AIR, **given)
+
+
+def test_a_stenter_with_too_much_fresh_air_is_told() -> None:
+    """BREF for textiles, § 4.8.1: 0.1 to 0.15 kg of water per kg of dry air; 0.05 is air wasted."""
+
+    def told(**more: str) -> tuple[float, bool]:
+        oven = gr.alone("drying.impingement_dryer", **more).solve().units["impingement_dryer"]
+        (check,) = [c for c in oven.checks if c.name == "water vapor per dry air in the exhaust"]
+        return float(check.value), bool(check.ok)
+
+    assert told() == (pytest.approx(0.09, abs=0.01), True)
+    wasted, ok = told(**{"gas.gas_flow": "9 t/h"})
+    assert wasted < 0.05
+    assert not ok

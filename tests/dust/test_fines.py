@@ -15,12 +15,16 @@ from granum.drying.equipment.flash import FlashDryer
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.silo import SiloDryer
 from granum.drying.equipment.spray import SprayDryer
+from granum.drying.gas_solid.airborne import dried_on
 from granum.drying.gas_solid.kinetics import SurfaceKinetics
+from granum.drying.gas_solid.layer import misty
+from granum.drying.isotherms.adsorption import Gab
 from granum.dust.equipment.hood import ExtractionHood
 from granum.materials.library import session
 from granum.streams import fines
 from granum.streams.atmosphere import explosible
 from granum.streams.dusts import dust, dusts
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty, median_size
 
@@ -81,7 +85,8 @@ def test_the_finest_go_first() -> None:
     feed = solid(flow=8.0)  # one kilogram a second in each class
     share = np.asarray(fines.finest(feed, 0.3))
     np.testing.assert_allclose(share, [[1.0, 1.0, 0.4, 0.0, 0.0, 0.0, 0.0, 0.0]] * 2, atol=1e-12)
-    rest, gas = fines.taken(feed, air(1.0), jnp.asarray(share))
+    rest, dust = fines.parted(feed, jnp.asarray(share))
+    gas = air(1.0) + dust
     assert float(gas.solid_flow) == pytest.approx(2.4)
     assert float(gas.liquid_flow) == pytest.approx(0.3 * float(feed.liquid_flow))
     assert float(rest.moisture_dry_basis) == pytest.approx(float(feed.moisture_dry_basis))
@@ -185,3 +190,57 @@ def test_dust_data_is_a_card() -> None:
     assert [row.deflagration_index > 200e5 for row in found.values()] == [False, False, True]
     with pytest.raises(InputError, match="lactose"):
         gr.dust.dust_explosibility("lactos")
+
+
+def dried(moisture: float, kinetics, moist: float = 0.01) -> tuple[Stream, Stream, Stream, Stream]:
+    """Dust of 40 °C and air of 90 °C before and after they met."""
+    dust, gas = solid(flow=0.05, moisture=moisture).replace(temperature=313.15), air(1.0, 363.15, moist=moist)
+    return dust, gas, *dried_on(dust, gas, kinetics)
+
+
+def test_wet_dust_dries_in_hot_gas() -> None:
+    """All its water where nothing binds it; water evaporates from 0 °C at 2501 kJ/kg (steam tables), specific
+    heats of 1.006 of air, 1.86 of vapor and 1.1 kJ/(kg K) of starch and calcite.
+    """
+    dust, gas, left, air_after = dried(0.2, KINETICS)
+    assert float(left.liquid_flow) == pytest.approx(0.0, abs=1e-9)
+    T = float(air_after.temperature) - 273.15
+    # each against 0 °C: air and vapor, dust with 10 g/s of water
+    given = (90.0 - T) * (1.006 + 0.01 * 1.86) + 0.05 * 1.1 * (40.0 - T)
+    assert given == pytest.approx(0.01 * (2501.0 + 1.86 * T - 4.19 * 40.0), rel=0.005)
+    before, after = (
+        float(dust.enthalpy_flow + gas.enthalpy_flow),
+        float(left.enthalpy_flow + air_after.enthalpy_flow),
+    )
+    assert after == pytest.approx(before, rel=1e-12)
+    assert float(left.liquid_flow + air_after.gas[1]) == pytest.approx(
+        float(dust.liquid_flow + gas.gas[1]), rel=1e-12
+    )
+
+
+def test_dust_ends_in_equilibrium_with_its_gas_and_never_drinks() -> None:
+    isotherm = Gab(0.08, 10.0, 0.8)
+    _dust, _gas, left, after = dried(0.2, SurfaceKinetics(0.1, isotherm=isotherm))
+    humidity = gr.humid_gas.relative_humidity(
+        temperature=float(after.temperature), humidity_ratio=float(after.gas[1] / after.gas[0])
+    )
+    expected = isotherm.moisture(humidity, float(after.temperature))
+    assert float(left.moisture_dry_basis) == pytest.approx(float(expected), rel=1e-3)
+    dust, _gas, left, after = dried(1e-4, SurfaceKinetics(0.1, isotherm=isotherm))
+    assert float(left.liquid_flow) == pytest.approx(float(dust.liquid_flow), rel=1e-12)
+    # nor does gas take more than it holds
+    soaked, _gas, left, after = dried(3.0, KINETICS)
+    assert 0.0 < float(left.liquid_flow) < float(soaked.liquid_flow)
+    assert float(HumidMixture(MADE).relative_humidity(after)) == pytest.approx(0.999, rel=1e-6)
+
+
+def test_fog_in_the_air_of_a_silo() -> None:
+    """What condenses warms the air until it holds the rest: 2.43 MJ per kg against 1.01 kJ/(kg K)."""
+    gas = air(1.0, 303.15, moist=1.2 * 0.0272)  # saturated at 30 °C: 27.2 g/kg
+    after = misty(gas)
+    mist, rise = float(after.liquid_flow), float(after.temperature) - 303.15
+    assert rise * (1.006 + 0.03 * 1.86) == pytest.approx(mist * 2430.0, rel=0.03)
+    assert float(HumidMixture(MADE).relative_humidity(after)) == pytest.approx(1.0, rel=1e-6)
+    assert mist + float(after.gas[1]) == pytest.approx(float(gas.gas[1]), rel=1e-12)
+    assert float(after.enthalpy_flow) == pytest.approx(float(gas.enthalpy_flow), rel=1e-12)
+    assert float(misty(air(1.0, 303.15, moist=0.9 * 0.0272)).liquid_flow) == 0.0

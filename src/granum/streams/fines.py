@@ -55,13 +55,23 @@ def finest(solid: Stream, share: Any) -> Any:
     return jnp.broadcast_to(found, (len(solid.mixture.solids), found.shape[0]))
 
 
-def taken(solid: Stream, gas: Stream, share: Any) -> tuple[Stream, Stream]:
-    """The solid without its fines, and the gas with them; moisture goes with its solid."""
-    share = share.reshape(share.shape + (1,) * len(solid.mixture.axes))
-    moist = safe_divide(jnp.sum(solid.solid * share), solid.solid_flow)
-    dust = solid.part(solid=share, liquid=moist)
-    rest = solid.replace(solid=solid.solid - dust.solid, liquid=solid.liquid - dust.liquid)
-    return rest, gas + dust
+def parted(solid: Stream, share: Any, moisture: Any = None) -> tuple[Stream, Stream]:
+    """The solid without its fines, and the fines; moisture goes with its solid, alike on all of it unless
+    ``moisture`` says how much there is on each size class.
+    """
+    whole = share.reshape(share.shape + (1,) * len(solid.mixture.axes))
+    moist = safe_divide(jnp.sum(solid.solid * whole), solid.solid_flow)
+    if moisture is not None:
+        moist = safe_divide(jnp.sum(by_size(solid, share) * moisture), jnp.sum(moisture), moist)
+    dust = solid.part(solid=whole, liquid=moist)
+    return solid.replace(solid=solid.solid - dust.solid, liquid=solid.liquid - dust.liquid), dust
+
+
+def by_size(solid: Stream, share: Any) -> Any:
+    """Share of each size class, all species and further axes together."""
+    whole = share.reshape(share.shape + (1,) * len(solid.mixture.axes))
+    axes = (0, *range(2, solid.solid.ndim))
+    return safe_divide(jnp.sum(solid.solid * whole, axis=axes), solid.solid_by_size)
 
 
 def _settled(falling: Any, gas: Stream, floor: Any) -> Any:

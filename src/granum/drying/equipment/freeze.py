@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -32,9 +33,11 @@ from granum.core.kinds import (
     Volume,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
 from granum.drying.formulas.vials import SUBLIMATION_HEAT
 from granum.drying.kinds import (
+    EnergyPerVolume,
     HeatTransferPerPressure,
     PerLength,
     PerPressure,
@@ -45,6 +48,12 @@ from granum.numerics import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import AREA, COLD_APPROACH, COOLED, HEATED, cooled, heated
+
+PUMPED = {
+    "electric_power_vacuum": Utility(
+        "king1971, the pressure only: the energy of the pump is our own estimate"
+    )
+}
 
 
 class FreezeDried(NamedTuple):
@@ -92,6 +101,20 @@ def sublimed(feed: Stream, moisture_outlet: Any, temperature: Any) -> FreezeDrie
     return FreezeDried(product, melted, duty)
 
 
+def pump_power(dryer: Any, shelves: Any, figures: Any) -> Any:
+    """Of the vacuum pump that evacuates the cabinet around the shelves in time and runs on as long as
+    the product dries; mean over the cycle.
+    """
+    displaced = (
+        shelves
+        * dryer.shelf_pitch
+        / dryer.pump_down_time
+        * jnp.log(jnp.maximum(STANDARD_ATMOSPHERE / dryer.pressure_chamber, 1.0))
+    )
+    drying = figures.drying_time_primary + figures.drying_time_secondary
+    return dryer.pump_energy_per_volume * displaced * safe_divide(drying, figures.cycle_time)
+
+
 @equipment("freeze_dryer", source="pikal1985; pikal1990; shivkumar2019", title="Freeze dryer for vials")
 class FreezeDryer(Unit):
     """Vials freeze, sublime on shelves that warm to a temperature, and desorb at a second one; batches follow
@@ -102,7 +125,7 @@ class FreezeDryer(Unit):
     secondary drying, which ends at ``moisture_outlet``. ``heat_duty_shelf`` and ``heat_duty_condenser`` are
     means over the cycle of the heats of sublimation and desorption, and ``energy_per_water`` is the heat
     alone: that of the whole line adds the electricity which makes the cold. Melted condenser ice
-    leaves at the feed's temperature.
+    leaves at the feed's temperature. The vacuum pump is that of ``drying.tray_freeze_dryer``.
     """
 
     pressure_chamber: Pressure
@@ -128,6 +151,9 @@ class FreezeDryer(Unit):
     temperature_limit: Temperature = 241.15
     duct_diameter: Length | None = None
     sublimation_capacity: MassFlow | None = None
+    shelf_pitch: Length = 0.1
+    pump_down_time: Time = 1800.0
+    pump_energy_per_volume: EnergyPerVolume = 5e4
 
     limits: ClassVar[Limits] = {
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "pikal1985"),
@@ -140,7 +166,7 @@ class FreezeDryer(Unit):
         ),
     }
 
-    utilities: ClassVar[Utilities] = HEATED | COOLED | AREA
+    utilities: ClassVar[Utilities] = HEATED | COOLED | AREA | PUMPED
 
     def outlets(self, inside: None, feed: Stream) -> FreezeDried:
         return sublimed(feed, self.moisture_outlet, self.temperature_shelf_secondary)
@@ -222,5 +248,8 @@ class FreezeDryer(Unit):
         return (
             heated(figures.heat_duty_shelf + rest, self.temperature_shelf_secondary)
             | cooled(figures.heat_duty_condenser + jnp.minimum(outlets.heat_duty, 0.0), frozen)
-            | {"area_installed": shelves}
+            | {
+                "electric_power_vacuum": pump_power(self, shelves, figures),
+                "area_installed": shelves,
+            }
         )

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.constants import STANDARD_ATMOSPHERE, STEFAN_BOLTZMANN
+from granum.core.constants import STEFAN_BOLTZMANN
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -33,8 +33,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.units import format_number
-from granum.core.utilities import Utility
-from granum.drying.equipment.freeze import FreezeDried, sublimed
+from granum.drying.equipment.freeze import PUMPED, FreezeDried, pump_power, sublimed
 from granum.drying.formulas.freeze_drying import secondary_drying_time
 from granum.drying.formulas.freeze_trays import freeze_drying_tray
 from granum.drying.formulas.freezing import freezing_temperature_mean, freezing_time_pham
@@ -47,7 +46,6 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import AREA, COOLED, HEATED, cooled, heated
 
-PUMP_SOURCE = "king1971, the pressure only: the energy of the pump is our own estimate"
 FUSION_HEAT = 333.55e3  # J/kg, of ice at 0 °C
 ICE_HEAT_CAPACITY, WATER_HEAT_CAPACITY = 2050.0, 4186.0  # J/(kg K), of ice at about −10 °C
 
@@ -135,7 +133,7 @@ class TrayFreezeDryer(Unit):
         "time": Limit("drying time of a batch", 36000.0, 259200.0, "s", "houdon2017"),
     } | AS_SPECIFIED
 
-    utilities: ClassVar[Utilities] = HEATED | COOLED | AREA | {"electric_power_vacuum": Utility(PUMP_SOURCE)}
+    utilities: ClassVar[Utilities] = HEATED | COOLED | AREA | PUMPED
 
     @classmethod
     def size(cls, temperature_limit: Any, **more: Any) -> TrayFreezeDryer:
@@ -268,19 +266,11 @@ class TrayFreezeDryer(Unit):
         freezer = cooled(figures.heat_duty_freezing, self.temperature_freezer)
         condenser = cooled(figures.heat_duty_condenser, self.temperature_condenser)
         hottest = jnp.maximum(self.temperature_shelf, self.temperature_shelf_secondary)
-        displaced = (
-            figures.volume
-            / self.pump_down_time
-            * jnp.log(jnp.maximum(STANDARD_ATMOSPHERE / self.pressure_chamber, 1.0))
-        )
-        drying = figures.drying_time_primary + figures.drying_time_secondary
         return (
             heated(figures.heat_duty_shelf + figures.heat_duty_defrost, hottest)
             | {name: freezer[name] + condenser[name] for name in freezer}
             | {
-                "electric_power_vacuum": self.pump_energy_per_volume
-                * displaced
-                * safe_divide(drying, figures.cycle_time),
+                "electric_power_vacuum": pump_power(self, figures.area, figures),
                 "area_installed": figures.area,
             }
         )

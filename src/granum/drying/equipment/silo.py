@@ -25,9 +25,9 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed, pressure_gradient_shedd
 from granum.drying.gas_solid.column import Zone
-from granum.drying.gas_solid.dryer import NOTES, DryerFigures, Through, dried, ready, sized, warmed
+from granum.drying.gas_solid.dryer import NOTES, DryerFigures, Through, ready, sized, warmed
 from granum.drying.gas_solid.kinetics import AbstractKinetics
-from granum.drying.gas_solid.layer import LayerDryer, joined
+from granum.drying.gas_solid.layer import LayerDryer, fogged, joined, misty
 from granum.drying.gas_solid.liquor import counted
 from granum.drying.gas_solid.steam import is_steam
 from granum.streams.atmosphere import VENTED
@@ -63,10 +63,10 @@ class SiloDryer(LayerDryer):
 
     Deep bed of thin layers. ``turned`` lets the air of the second half of the drying zone enter from the
     other side. Without air at the port ``cooling`` there is no cooling zone; its air leaves as ``warmed_air``
-    and may feed the heater in the flowsheet. With ``entrainment`` the exhaust takes along the
-    ``dusting_fraction`` of the grain, the finest of it: 0.11 kg a tonne of column dryers, 1.5 of rack dryers
-    (AP-42, table 9.9.1-1, recalled). An ``explosion_vent`` is that of the room that the air and the dust of
-    the grain pass, whatever the size classes are.
+    and may feed the heater in the flowsheet. What air beyond saturation cannot hold leaves with it as mist.
+    With ``entrainment`` the exhaust takes along the ``dusting_fraction`` of the grain, the finest of it: 0.11
+    kg a tonne of column dryers, 1.5 of rack dryers (AP-42, table 9.9.1-1, recalled). An ``explosion_vent`` is
+    that of the room that the air and the dust of the grain pass, whatever the size classes are.
     """
 
     volume: Volume
@@ -142,15 +142,16 @@ class SiloDryer(LayerDryer):
     ) -> DriedGrain:
         found = inside.profile
         if cooling is None:
-            product, exhaust, duty = self.dusted(dried(feed, gas, found))
+            product, exhaust, duty = self.dusted(fogged(feed, gas, found), found)
             return DriedGrain(product, exhaust, empty(feed.mixture, gas.temperature, gas.pressure), duty)
         assert inside.cooling is not None
         vapor, heat = inside.cooling
         apart = found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat)
-        product, exhaust, duty = self.dusted(dried(feed, gas, apart))
+        product, exhaust, duty = self.dusted(fogged(feed, gas, apart), apart)
         stray = cooling.part(solid=1.0, liquid=1.0)
         air = cooling.replace(gas=cooling.gas.at[HumidMixture(feed.mixture).vapor].set(vapor))
-        return DriedGrain(product, exhaust, warmed(air, heat + stray.enthalpy_flow), duty)
+        air = misty(warmed(air, heat + stray.enthalpy_flow))
+        return DriedGrain(product, exhaust, air, duty)
 
     @classmethod
     def size(

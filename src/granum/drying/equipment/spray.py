@@ -73,6 +73,8 @@ class SprayDryer(Dryer):
     entrainment: bool = False
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
+    dust_dries_on = False  # it has flown with the gas all along
+
     limits: ClassVar[Limits] = (
         Dryer.limits
         | {
@@ -144,7 +146,7 @@ class SprayDryer(Dryer):
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream, fines: Stream | None = None) -> Dried:
         drops, dissolved = self.atomized(feed, gas, fines), composition(charge(feed, fines))
-        return self.dusted(parted(drops, dissolved, gas, inside.profile))
+        return self.dusted(parted(drops, dissolved, gas, inside.profile), inside.profile)
 
     def entrained(self, product: Stream, exhaust: Stream) -> Any:
         """What the gas in the section of the chamber holds against its fall, kept evenly mixed by

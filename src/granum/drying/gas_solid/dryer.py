@@ -31,14 +31,15 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
+from granum.drying.gas_solid.airborne import dried_on
 from granum.drying.gas_solid.cells import Contact, Inlet, Profile
 from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting
 from granum.drying.gas_solid.liquor import composition, counted, moistened
 from granum.drying.gas_solid.matter import Matter, temperature_at
 from granum.numerics import safe_divide
+from granum.streams import fines
 from granum.streams.atmosphere import EXPLOSIBLE, FLAMMABLE, explosible, flammable, vented
 from granum.streams.equilibrium import HumidMixture
-from granum.streams.fines import taken
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import DUCT, HOT_GAS, ducted, warmth
@@ -129,6 +130,7 @@ class Dryer(Unit):
         def temperature_limit(self) -> Any: ...
 
     explosion_vent = None  # of those that have one
+    dust_dries_on: ClassVar[bool] = True  # to equilibrium with the exhaust
 
     limits: ClassVar[Limits] = {
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
@@ -167,7 +169,7 @@ class Dryer(Unit):
         return found
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
-        return self.dusted(dried(feed, gas, inside.profile))
+        return self.dusted(dried(feed, gas, inside.profile), inside.profile)
 
     def entrained(self, product: Stream, exhaust: Stream) -> Any:
         """Share of each species and size class of the product that the exhaust takes along; None unless a
@@ -175,12 +177,19 @@ class Dryer(Unit):
         """
         return None
 
-    def dusted(self, made: Dried) -> Dried:
-        """The outlets with the dust where it goes, its moisture with it."""
+    def dusted(self, made: Dried, found: Profile) -> Dried:
+        """The outlets with the dust where it goes: as moist as its size classes are, and dried on in the
+        exhaust where it meets that only on its way out.
+        """
         share = self.entrained(made.product, made.exhaust)
         if share is None:
             return made
-        return Dried(*taken(made.product, made.exhaust, share), made.heat_duty)
+        by_class = found.water.shape[0] == share.shape[1]  # a layer has one moisture for all sizes
+        product, dust = fines.parted(made.product, share, found.water if by_class else None)
+        exhaust = made.exhaust
+        if self.dust_dries_on:
+            dust, exhaust = dried_on(dust, exhaust, self.kinetics)
+        return Dried(product, exhaust + dust, made.heat_duty)
 
     def figures(
         self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any

@@ -5,13 +5,15 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 
 from granum.drying.gas_solid.cells import Contact, Network, Profile
 from granum.drying.gas_solid.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
-from granum.drying.gas_solid.dryer import Dryer, Through, ready, solved
+from granum.drying.gas_solid.dryer import Dried, Dryer, Through, dried, ready, solved
 from granum.drying.gas_solid.liquor import counted
 from granum.drying.gas_solid.matter import Matter
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 
 
@@ -59,6 +61,22 @@ class LayerDryer(Dryer):
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         return _passed(self, feed, gas)
+
+    def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
+        return self.dusted(fogged(feed, gas, inside.profile), inside.profile)
+
+
+def fogged(feed: Stream, gas: Stream, found: Profile) -> Dried:
+    """The outlets, with the fog of an exhaust that mixes cold and warm air, each nearly saturated."""
+    made = dried(feed, gas, found)
+    return made._replace(exhaust=misty(made.exhaust))
+
+
+def misty(gas: Stream) -> Stream:
+    """Gas beyond saturation with what it cannot hold as mist."""
+    humid = HumidMixture(gas.mixture)
+    wet = (humid.relative_humidity(gas) > 1.0) & (gas.gas_flow > 0.0)
+    return jax.tree.map(lambda a, b: jnp.where(wet, a, b), humid.at_own_enthalpy(gas), gas)
 
 
 @ready

@@ -11,7 +11,7 @@ from granum.core.kinds import Area, Concentration, Fraction, Speed
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.streams.atmosphere import EXPLOSIBLE, explosible
-from granum.streams.fines import fall, finest, held, taken
+from granum.streams.fines import fall, finest, held, parted
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
@@ -75,8 +75,8 @@ class ExtractionHood(Unit):
 
     def outlets(self, inside: Drawn, feed: Stream, air: Stream) -> Extracted:
         drawn = feed.part(gas=1.0) + air
-        product, gas = taken(feed.part(solid=1.0, liquid=1.0), drawn, inside.share)
-        return Extracted(gas, product)
+        product, dust = parted(feed.part(solid=1.0, liquid=1.0), inside.share)
+        return Extracted(drawn + dust, product)
 
     def figures(self, inside: Drawn, outlets: Extracted, feed: Stream, air: Stream) -> HoodFigures:
         return HoodFigures(
