@@ -8,7 +8,7 @@ import numpy as np
 import plotly.graph_objects as go
 
 from granum.core import chart
-from granum.core.charts import ACCENT, GRID, LINES, OUT, template
+from granum.core.charts import GRID, HEAT, LINES, OUT, template
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -47,8 +47,8 @@ def two_salts_chart(
 
     >>> drawing = two_salts_chart(
     ...     isotherm_temperatures=[298.15, 373.15],
-    ...     solute_mass_fraction_first="20 %",
-    ...     solute_mass_fraction_second="14 %",
+    ...     solute_mass_fraction_first="12 %",
+    ...     solute_mass_fraction_second="8 %",
     ... )
     >>> [trace.name for trace in drawing.data if trace.showlegend]
     ['25 °C', '100 °C', 'boiled at 100 °C', 'cooled to 25 °C']
@@ -93,7 +93,7 @@ def two_salts_chart(
         if cold < hot:
             ways[_("cooled to {where}").format(where=_celsius(cold))] = (slice(path.boiled, None), "dash")
         for word, (part, dash) in ways.items():
-            line = {"color": ACCENT, "width": 3, "dash": dash}
+            line = {"color": HEAT, "width": 3, "dash": dash}
             _add(drawing, path.first[part], path.second[part], word, mode="lines", line=line)
     axis = {"gridcolor": GRID, "ticks": "outside", "tickfont": {"size": 11}}
     drawing.update_layout(
