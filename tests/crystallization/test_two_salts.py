@@ -12,8 +12,8 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.core.errors import InputError
-from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer, parted
-from granum.crystallization.vessels.common_ion import invariant_point
+from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
+from granum.crystallization.vessels.common_ion import crystallization_path, invariant_point, parted
 from granum.materials.common_ion import common_ion
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
@@ -89,6 +89,43 @@ def test_cooling_gives_potassium_and_boiling_sodium_chloride():
     assert boiled.crystal_purity == 1.0
     # 0.70 of the pressure of water, which is 84.5 kPa at 95 °C (steam tables)
     assert boiled.pressure == pytest.approx(float(boiled.water_activity) * 84.5e3, rel=0.005)
+
+
+def test_a_path_boils_from_the_water_and_cools_from_the_corner_of_the_potash():
+    """Straight lines of the triangle (lever rule), ends on the tables' invariant points of above."""
+    path = crystallization_path(PAIR, 0.20, 0.14, 373.15, 298.15)
+    water = 1.0 - path.first - path.second
+    clear = slice(0, 5)
+    np.testing.assert_allclose(path.first[clear] / path.second[clear], 0.20 / 0.14, rtol=1e-9)
+    boiling, cooling = slice(0, path.boiled + 1), slice(path.boiled, None)
+    assert np.all(np.diff(water[boiling]) < 1e-12)
+    np.testing.assert_allclose((path.first / water)[cooling], (path.first / water)[path.boiled], rtol=1e-9)
+    assert 100 * path.first[path.boiled] == pytest.approx(16.8, abs=0.6)
+    assert 100 * path.second[path.boiled] == pytest.approx(21.8, abs=0.7)
+    # potash works: of 21.8 g in 61.4 g of water some 11 g come out (the table's solubilities at 25 °C)
+    ends = path.second / water
+    assert ends[path.boiled] - ends[-1] == pytest.approx((21.8 / 61.4) - (11.1 / 68.5), abs=0.02)
+
+
+def test_a_path_of_one_salt_ends_at_its_solubility():
+    path = crystallization_path(PAIR, 0.0, 0.1, 373.15, 293.15)
+    assert np.all(path.first == 0.0)
+    # 56.2 and 34.2 g per 100 g of water at 100 and 20 °C (CRC Handbook; recalled)
+    got = path.second / (1.0 - path.second)
+    assert got[path.boiled] == pytest.approx(0.562, abs=0.006)
+    assert got[-1] == pytest.approx(0.342, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        ({"solute_mass_fraction_first": 0.6, "solute_mass_fraction_second": 0.4}, "leave water"),
+        ({"isotherm_temperatures": [298.15, 500.0]}, "from 0 °C to 100 °C, not at 227 °C"),
+    ],
+)
+def test_what_no_triangle_shows_is_refused(said, words):
+    with pytest.raises(InputError, match=words):
+        gr.crystallization.two_salts_chart(**({"isotherm_temperatures": [298.15, 373.15]} | said))
 
 
 @pytest.mark.long

@@ -379,6 +379,7 @@ from granum.crystallization.vessels.classified_bed import (
 from granum.crystallization.vessels.common_ion import (
     InvariantPoint as InvariantPoint,
     Isotherm as Isotherm,
+    Path as Path,
     invariant_point as invariant_point,
 )
 from granum.crystallization.vessels.crystals import (

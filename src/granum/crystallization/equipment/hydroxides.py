@@ -78,6 +78,9 @@ class HydroxidePrecipitator(Precipitating):
     balanced. Complexes with hydroxide are not counted, so that amphoteric metals (zinc, aluminum, chromium,
     lead) fall more completely here than they do beyond their best pH; nor is carbonate from the air. A metal
     that falls from a neutral solution is refused where it is in excess of the alkali: it would leave an acid.
+
+    What stays in solution is what growth leaves, not the solubility alone: magnesium with just its equivalent
+    of lye keeps some 8 % after 20 min, under 2 % after ten times as long or with a fifth more lye.
     """
 
     def _equilibrium(self, way: Exchange) -> HydroxideEquilibrium:

@@ -26,6 +26,7 @@ from granum.core.limits import Limit
 from granum.crystallization.equipment.in_time import Crystallized
 from granum.crystallization.equipment.roles import given_off, refuse_boiling, roles, with_crystals
 from granum.crystallization.kinds import VesselVolume
+from granum.crystallization.vessels.common_ion import parted
 from granum.materials.common_ion import CommonIon, common_ion
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
@@ -64,19 +65,6 @@ class Parted(NamedTuple):
     crystals: tuple[Any, Any]
     pair: CommonIon
     places: tuple[Any, Any]
-
-
-def parted(pair: CommonIon, temperature: Any, first: Any, second: Any) -> tuple[Any, Any]:
-    """Molalities left in solution at equilibrium of what there is per kilogram of water, in solution and
-    crystals: both at the invariant point, one saturated beside the other, or all dissolved.
-    """
-    both = pair.invariant(temperature)
-    left_first = pair.room(temperature, 0, jnp.minimum(second, both[1]))
-    left_second = pair.room(temperature, 1, jnp.minimum(first, both[0]))
-    full = (first >= both[0]) & (second >= both[1])
-    one = jnp.where(full, both[0], jnp.minimum(first, left_first))
-    other = jnp.where(full, both[1], jnp.minimum(second, left_second))
-    return one, other
 
 
 @equipment(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -14,6 +14,7 @@ from granum.materials.common_ion import CommonIon, common_ion
 from granum.materials.library import session
 
 POINTS = 25
+STAGES = 60  # points of a path at one temperature, or between two
 
 
 class InvariantPoint(NamedTuple):
@@ -37,10 +38,33 @@ class Isotherm(NamedTuple):
     corner: int
 
 
+class Path(NamedTuple):
+    """What a liquor goes through: boiled at one temperature until it is saturated with both salts (or with
+    the only one), then cooled; mass fractions, and where cooling begins.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    boiled: int
+
+
 def fractions(pair: CommonIon, first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Mass fractions of both salts from their molalities."""
     a, b = (np.asarray(m) * M for m, M in zip((first, second), pair.molar_masses, strict=True))
     return a / (1.0 + a + b), b / (1.0 + a + b)
+
+
+def parted(pair: CommonIon, temperature: Any, first: Any, second: Any) -> tuple[Any, Any]:
+    """Molalities left in solution at equilibrium of what there is per kilogram of water, in solution and
+    crystals: both at the invariant point, one saturated beside the other, or all dissolved.
+    """
+    both = pair.invariant(temperature)
+    left_first = pair.room(temperature, 0, jnp.minimum(second, both[1]))
+    left_second = pair.room(temperature, 1, jnp.minimum(first, both[0]))
+    full = (first >= both[0]) & (second >= both[1])
+    one = jnp.where(full, both[0], jnp.minimum(first, left_first))
+    other = jnp.where(full, both[1], jnp.minimum(second, left_second))
+    return one, other
 
 
 def isotherm(pair: CommonIon, temperature: float) -> Isotherm:
@@ -52,6 +76,20 @@ def isotherm(pair: CommonIon, temperature: float) -> Isotherm:
     second = np.asarray(jax.vmap(lambda m: pair.room(temperature, 1, m))(jnp.asarray(beside_first)))
     x, y = fractions(pair, np.append(first, beside_first), np.append(beside_second, second))
     return Isotherm(x, y, POINTS - 1)
+
+
+def crystallization_path(pair: CommonIon, first: float, second: float, hot: float, cold: float) -> Path:
+    """The way of a liquor from its mass fractions on; the crystals are taken off before it is cooled."""
+    water = 1.0 - first - second
+    fed = np.array([first, second]) / np.asarray(pair.molar_masses) / water
+    ends = np.asarray(pair.invariant(hot)) if fed.min() > 0.0 else np.asarray(pair.alone(hot))
+    thicker = max(float(end / m) for end, m in zip(ends, fed, strict=True) if m > 0.0)
+    left = jax.vmap(lambda temperature, m: jnp.stack(parted(pair, temperature, m[0], m[1])))
+    scales = np.geomspace(1.0, max(thicker, 1.0), STAGES)
+    boiled = np.asarray(left(jnp.full(STAGES, hot), jnp.asarray(scales[:, None] * fed)))
+    cooled = np.asarray(left(jnp.linspace(hot, cold, STAGES), jnp.tile(boiled[-1], (STAGES, 1))))
+    x, y = fractions(pair, *np.append(boiled, cooled, axis=0).T)
+    return Path(np.append(first, x), np.append(second, y), STAGES)
 
 
 @procedure(
