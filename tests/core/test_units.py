@@ -60,6 +60,7 @@ from granum.particles import reynolds_number
         ("1/8 in", "Length", 0.003175),
         ("1/3", "VolumeFraction", 1 / 3),
         ("2 1/m", "SpecificSurface", 2.0),
+        ("2 /m", "SpecificSurface", 2.0),
         ("18 degF", "TemperatureDifference", 10.0),
         ("18 °F", "TemperatureDifference", 10.0),
         ("10 K", "TemperatureDifference", 10.0),

@@ -105,6 +105,7 @@ def parse_unit(text: str) -> Any:
     for written, meant in _SPELLINGS.items():
         spelled = spelled.replace(written, meant)
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
+    spelled = re.sub(r"^/(?=\s*[^\W\d])", "1/", spelled)  # /m, /min
     # g/100 g of water, g per 100 g, g/(100 g)
     spelled = re.sub(
         r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$",
