@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
 
@@ -10,7 +11,7 @@ from granum.app.forms import docstring_values
 from granum.core import registry
 from granum.core.i18n import language
 from granum.reports.equations import Reader, UnreadError, cut, statements
-from granum.reports.mathml import equation_lines
+from granum.reports.mathml import equation_lines, equation_wrapped
 from granum.reports.numbers import numbered
 
 VALUES = {"a": 2.0, "b": 3.0, "r_o": 4.0, "R": 8.0, "T": 5.0, r"\alpha": 0.5, r"C_D": 0.44}
@@ -127,3 +128,16 @@ def test_most_formulas_show_their_numbers() -> None:
             tried += 1
             shown += bool(example(key))
     assert shown > 0.55 * tried
+
+
+def test_a_line_may_end_before_a_sum_but_in_no_bracket() -> None:
+    text = example("porous.pressure_gradient_ergun")
+    pieces = equation_wrapped(text).split("<math")[1:]
+    assert len(pieces) >= 4  # gradient, first term, second term, result
+    assert all(p.count("<mfrac>") == p.count("</mfrac>") for p in pieces)
+    one, whole = (
+        "".join(re.findall(r"<m[nio][^>]*>([^<]*)", f(text))) for f in (equation_wrapped, equation_lines)
+    )
+    assert one == whole
+    assert equation_wrapped(r"x = \left(a + b\right)").count("<math") == 2
+    assert equation_wrapped("x = -3").count("<math") == 2

@@ -15,7 +15,7 @@ from granum.core.parameters import Parameter, default_as_json
 from granum.core.results import Result
 from granum.core.units import format_number, from_si, pretty_unit
 from granum.reports.html import note_step
-from granum.reports.mathml import equation_lines, mathml
+from granum.reports.mathml import equation_wrapped, mathml
 from granum.reports.numbers import numbered
 from granum.reports.quantities import MOST_SHOWN, beside_rows, in_units, law_label, value_text
 
@@ -155,7 +155,7 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
         "series": series,
         "inputs_shown": inputs,
         "equation": step["equation"] if result.card.equation else "",
-        "equation_numbers": equation_lines(numbered(result)),
+        "equation_numbers": equation_wrapped(numbered(result)),
         "citation": step["source"],
         "python": python_line(result.card, given),
         "command": command_line(result.card, given),

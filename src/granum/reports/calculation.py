@@ -11,7 +11,7 @@ from granum.core import charts
 from granum.core.i18n import _
 from granum.core.results import Result
 from granum.reports.html import note_step
-from granum.reports.mathml import equation_lines, mathml
+from granum.reports.mathml import equation_wrapped, mathml
 from granum.reports.numbers import numbered
 from granum.reports.quantities import beside_rows
 from granum.reports.sensitivity import Curve, chart, covered, curve, spoken
@@ -66,7 +66,7 @@ def calculation_sheet(
         notices=step["notices"],
         covers=bool(card.fitted),
         equation=step["equation"] if card.equation else "",
-        numbers=equation_lines(numbered(result)),
+        numbers=equation_wrapped(numbered(result)),
         chart=charts.as_html(figure) if figure is not None else "",
         shaded=found is not None and any(True for _span in covered(found)),
         spoken=spoken(found, units) if found is not None else "",
