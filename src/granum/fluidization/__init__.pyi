@@ -97,6 +97,10 @@ from granum.fluidization.formulas.regimes import (
     slugging_height as slugging_height,
     turbulent_onset_velocity_bi_grace as turbulent_onset_velocity_bi_grace,
 )
+from granum.fluidization.formulas.spouting import (
+    minimum_spouting_velocity_mathur_gishler as minimum_spouting_velocity_mathur_gishler,
+    spoutable_depth_mcnab_bridgwater as spoutable_depth_mcnab_bridgwater,
+)
 from granum.fluidization.formulas.two_phase import (
     TwoPhaseBed as TwoPhaseBed,
     two_phase_bed as two_phase_bed,
