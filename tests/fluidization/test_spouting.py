@@ -12,8 +12,9 @@ VESSEL = {"diameter": 0.15, "inlet_diameter": 0.02}
 
 
 def test_glass_of_two_millimeters_spouts_where_others_found_it() -> None:
-    """Beads of 2.18 mm and 2400 kg/m³ in air of 1.18 kg/m³, 76 mm wide, jet of 9.5 mm, 0.1 m deep: 0.906 m/s
-    in the log of an open study of fuel coaters.
+    """Beads of 2.18 mm and 2400 kg/m³ in air of 1.18 kg/m³, 0.1 m deep, a vessel eight times as wide as its
+    jet: 0.906 m/s in the log of an open study of fuel coaters. The width is that of its grid, 32 cells of
+    2.38 mm.
     """
     found = fl.minimum_spouting_velocity_mathur_gishler(
         2.18e-3, 2400.0, 1.18, diameter=0.076, inlet_diameter=0.0095, bed_depth=0.1

@@ -23,7 +23,7 @@ def equation_lines(latex: str) -> str:
 
 def equation_wrapped(latex: str) -> str:
     """The same with places where a line may end: before a relation, a sum or a product that stands in no
-    bracket. The browser needs no such help in text, and gives none in mathematics.
+    bracket. Browsers end no lines within mathematics by themselves.
 
     >>> equation_wrapped(r"a = b + \\frac{c + d}{e}").count("<math")
     3
@@ -55,9 +55,8 @@ def _converted(latex: str, display: bool, language: str) -> str:
 
 def _piece(latex: str) -> str:
     shown = mathml(latex).replace('display="inline"', 'display="inline" displaystyle="true"', 1)
-    return shown.replace(
-        "<mrow><mrow />", "<mrow><mi></mi>", 1
-    )  # what is nothing but space counts for nothing
+    # an empty row is space, after which an operator would count as one in front
+    return shown.replace("<mrow><mrow />", "<mrow><mi></mi>", 1)
 
 
 _BREAKS = r"=|\\approx|\\Rightarrow|\\(?:cdot|times)(?![a-z])|(?<=[^\s=+\-(])\s*[+\-]"
@@ -71,7 +70,7 @@ def _pieces(latex: str) -> list[str]:
         word = found[0].strip()
         if word.startswith((r"\left", "{", "(", r"\begin")):
             depth += 1
-        elif word.startswith((r"\right", "}", ")", r"\end")) and not word.startswith(r"\rightarrow"):
+        elif word.startswith((r"\right", "}", ")", r"\end")):
             depth -= 1
         elif depth == 0 and latex[start : found.start()].strip():
             pieces.append(latex[start : found.start()])
