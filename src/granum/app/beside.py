@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from granum.app.forms import typed
+from granum.app.machine_curves import Machine
 from granum.app.spread import curves
 from granum.cases.reading import read_text
 from granum.cases.sizing import doubts, sought
@@ -34,6 +35,7 @@ from granum.studies.intervals import intervals, split
 from granum.studies.inverse import find_input
 
 LONG = 0.5  # seconds of the processor for one calculation, beyond which it is not repeated for a chart
+NO_CURVE: dict[str, Any] = {"figure": None, "inputs": [], "outputs": []}
 THIN = {"color": "#8a94a3", "width": 0.8}
 
 
@@ -45,23 +47,44 @@ def described_curve(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     """
     from granum.app.tasks import inputs_for
 
+    if thing.card.sort == "equipment":
+        return _machine_curve(thing.card.key, asked)
     given = split(thing.card, inputs_for(thing.card, _mapping(asked.get("inputs"))))[0]
     start = time.thread_time()
     result = thing.evaluate(**given)
     repeatable = takes_arrays(thing) or time.thread_time() - start < LONG
     found = repeatable and curve(thing, result, str(asked.get("against", "")), str(asked.get("output", "")))
     if not found:
-        return {"figure": None, "inputs": [], "outputs": []}
+        return NO_CURVE
     units = _units(found, given, asked)
-    figure = chart(found, units).to_plotly_json()
+    told = _told(found, units, [(p.name, p) for p in variable(result)], measured(result))
     if asked.get("laws"):
-        figure["data"] = [*_others(thing, given, found, units), *figure["data"]]
+        told["figure"]["data"] = [*_others(thing, given, found, units), *told["figure"]["data"]]
+    return told
+
+
+def _machine_curve(key: str, asked: Mapping[str, Any]) -> dict[str, Any]:
+    """The same of a piece of equipment alone; shaded is where it keeps its practical limits."""
+    words = _mapping(asked.get("inputs"))
+    machine = Machine(key, words)
+    against, output = machine.chosen(str(asked.get("against", "")), str(asked.get("output", "")))
+    found = machine.curve(against, output)
+    if found is None:
+        return NO_CURVE
+    units = _typed_unit(words.get(against), found.against), _known(asked.get("unit"), found.output)
+    told = _told(found, units, list(machine.settings.items()), list(machine.figures.values()))
+    return told | {"against": against}
+
+
+def _told(
+    found: Curve, units: tuple[str, str], inputs: list[tuple[str, Parameter]], outputs: list[Parameter]
+) -> dict[str, Any]:
     return {
-        "figure": figure,
+        "figure": chart(found, units).to_plotly_json(),
         "against": found.against.name,
         "output": found.output.name,
-        "inputs": [{"name": p.name, "label": p.label} for p in variable(result)],
-        "outputs": [{"name": p.name, "label": p.label} for p in measured(result)],
+        "inputs": [{"name": name, "label": p.label} for name, p in inputs],
+        "outputs": [{"name": p.name, "label": p.label} for p in outputs],
         "spoken": spoken(found, units),
         "covered": any(True for _span in covered(found)),
     }

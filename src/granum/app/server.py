@@ -181,9 +181,12 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         long.
         """
         key = payload["key"]
-        if not payload.get("laws") and await quick.run(lambda: registry.find(key).card.sort) == "formula":
+        sort = await quick.run(lambda: registry.find(key).card.sort)
+        if not payload.get("laws") and sort == "formula":
             return await quick.run(lambda: TASKS[task](payload, Tell()), request)
-        return await crew().run(task, payload, key, request)
+        # a machine is asked of the process that solved it
+        case = _structure(str(payload.get("case", ""))) if sort == "equipment" else key
+        return await crew().run(task, payload, case, request)
 
     @app.post("/api/sensitivity/{key}")
     async def sensitivity(request: Request, key: str, asked: Inputs) -> Response:

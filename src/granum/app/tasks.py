@@ -140,7 +140,7 @@ def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The chart of one result over one input, with the choice of both; and what other laws give where that
     is wanted.
     """
-    return packed(described_curve(valued(payload["key"]), payload))
+    return packed(described_curve(_valued_or_machine(payload["key"]), payload))
 
 
 def figure(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -173,8 +173,12 @@ def chapter_figure(payload: dict[str, Any], tell: Tell) -> bytes:
 
 def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The input for which a result is the wanted one; of equipment a setting, for one of its figures."""
-    thing = registry.find(payload["key"])
-    return packed(solved_input(thing if thing.card.sort == "equipment" else valued(payload["key"]), payload))
+    return packed(solved_input(_valued_or_machine(payload["key"]), payload))
+
+
+def _valued_or_machine(key: str) -> Any:
+    thing = registry.find(key)
+    return thing if thing.card.sort == "equipment" else valued(key)
 
 
 def calculation(payload: dict[str, Any], _tell: Tell) -> bytes:

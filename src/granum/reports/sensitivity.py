@@ -53,9 +53,10 @@ class Curve:
 
     @property
     def steep(self) -> bool:
-        """Whether the result spans so much that its axis is logarithmic."""
+        """Whether the result spans so much that its axis is logarithmic; that of a share never is."""
         good = self.y[np.isfinite(self.y)]
-        return bool(good.size and good.min() > 0.0 and good.max() > STEEP * good.min())
+        bounded = self.output.kind is not None and self.output.kind.upper < math.inf
+        return bool(not bounded and good.size and good.min() > 0.0 and good.max() > STEEP * good.min())
 
     @property
     def point(self) -> float:
@@ -119,10 +120,10 @@ def curve(thing: Any, result: Result, against: str = "", output: str = "") -> Cu
 def _over(thing: Any, result: Result, p: Parameter, output: Parameter) -> Curve | None:
     at, count = float(result.inputs[p.name]), POINTS if takes_arrays(thing) else SINGLE
     given = {name: value for name, value in result.inputs.items() if value is not None}
-    low, high, logarithmic = _window(p, at)
+    low, high, logarithmic = window(p, at)
     try:
         for ratios in (logarithmic, True):
-            x = _places(low, high, at, ratios, count)
+            x = places(low, high, at, ratios, count)
             y, trusted = values_at(thing, given, p.name, x, output.name)
             found = Curve(p, output, at, x, y, trusted, ratios)
             if ratios or not (found.steep and high > WIDE * low > 0.0):
@@ -163,13 +164,13 @@ def values_at(
     return y, trusted
 
 
-def _places(low: float, high: float, at: float, ratios: bool, count: int) -> np.ndarray:
+def places(low: float, high: float, at: float, ratios: bool, count: int) -> np.ndarray:
     """Where an input is looked at; the present value is one of the places."""
     spaced = np.geomspace if ratios else np.linspace
     return np.unique(np.append(spaced(low, high, count - 1), at))
 
 
-def _window(p: Parameter, at: float) -> tuple[float, float, bool]:
+def window(p: Parameter, at: float) -> tuple[float, float, bool]:
     """The ends of an axis about a value, and whether it is logarithmic."""
     kind = p.kind
     assert kind is not None

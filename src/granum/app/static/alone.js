@@ -20,6 +20,7 @@ import { Finder, useCards } from './cards.js';
 import { Field } from './form.js';
 import { keepDraft, packed } from './drafts.js';
 import { StreamTable } from './line_streams.js';
+import { Sensitivity } from './sensitivity.js';
 import { Utilities } from './utilities.js';
 
 const SHOWN = (c) => CALCULATED(c) || c.sort === 'equipment';
@@ -38,6 +39,7 @@ function Work({ card, given }) {
   const [values, setValues] = useState(given);
   const [past, setPast] = useState([]);
   const edited = useRef('');
+  const [drawn, setDrawn] = useState({});
   const [copied, copy] = useCopying();
   const words = JSON.stringify(values);
   useEffect(() => replaceLink('calculate', card.card, values), [words]);
@@ -120,7 +122,7 @@ function Work({ card, given }) {
       ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${form.data.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
       <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />
-      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text} />`}</div></section>`;
+      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text}><${Sensitivity} card=${card} values=${values} case=${text} old=${busy || Boolean(problem)} choice=${drawn} setChoice=${setDrawn} none=${t('No chart over a setting: one calculation takes too long to be repeated here. A study runs many.')} /></${Outcome}>`}</div></section>`;
 }
 
 /** Streams by the ports of the one machine. */
@@ -132,13 +134,14 @@ const ports = (rows, labels = {}) =>
     }),
   );
 
-function Outcome({ data, form, text }) {
+function Outcome({ data, form, text, children }) {
   const [unit] = Object.values(data.units);
   const failed = unit.checks.filter((c) => !c.ok);
   return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Results')}><table class="answers"><tbody>${Object.entries(unit.results).map(([name, row]) => html`<tr><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n" data-figure=${name}><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>
     <div class=${failed.length || data.flags.length ? 'caution' : 'ok'} data-belief=${failed.length || data.flags.length ? 'caution' : 'ok'}>${data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`)}${failed.map((c) => html`<p class="mark">▲ ${c.name}${colon()} ${c.text} (${c.allowed})</p>`)}
       ${!failed.length && !data.flags.length && html`<p class="mark">● ${t('within its practical limits')}</p>`}</div>
     ${unit.checks.length > 0 && html`<details open><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${unit.checks.map((c) => html`<tr class=${c.ok ? '' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.text}</td><td class="dim">${c.allowed}</td></tr>`)}</tbody></table></div></details>`}
+    ${children}
     <${StreamTable} turned table=${data.stream_table} text=${text} labels=${ports(data.stream_table.rows, form?.ports)} />
     <${Utilities} table=${data.utility_table} />
     <p class="small dim">${data.audit.text}</p>

@@ -1,23 +1,25 @@
 // A result over one of its inputs: the chart beside a number, on Calculate and under an exercise.
-import { html, t, ask, useAnswer, useRef } from './core.js';
+import { html, t, ask, useAnswer, useRef, Working } from './core.js';
 import { Plot } from './plot.js';
 
 /** The result over one input; asked for when the number itself stands, so that it never waits for this. */
-export function Sensitivity({ card, values, old, units, laws, choice, setChoice, none = '' }) {
+export function Sensitivity({ card, values, case: text = '', old, units = {}, laws = false, choice, setChoice, none = '' }) {
   const fresh = useRef(null);
   if (!old) fresh.current = values;
   const asked = fresh.current && {
     inputs: fresh.current,
     against: choice.against || '',
     output: choice.output || '',
-    unit: units[choice.output || card.outputs[0]?.name] || '',
+    unit: units[choice.output || card.outputs?.[0]?.name] || '',
     laws: laws && card.sort === 'formula',
+    case: text,
   };
-  const { data, error, pending } = useAnswer(
+  const { data, error, pending, cancel, job } = useAnswer(
     (signal) => (asked ? ask(`/api/sensitivity/${card.card}`, asked, { signal }) : Promise.resolve(null)),
     [JSON.stringify(asked)],
     120,
   );
+  if (none && pending && !data && !old) return html`<${Working} busy=${true} cancel=${cancel} job=${job} />`;
   if (none && (error || (data && !data.figure))) return html`<p class="small dim">${none}</p>`;
   if (!data?.figure || error) return null;
   const menu = (name, label, list, chosen) =>
@@ -27,6 +29,6 @@ export function Sensitivity({ card, values, old, units, laws, choice, setChoice,
     <div class="row"><h2>${t('How it changes')}</h2>${menu('output', t('Draw'), data.outputs, data.output)} ${menu('against', t('over'), data.inputs, data.against)}</div>
     <p class="spoken">${data.spoken}</p>
     <${Plot} figure=${data.figure} label=${data.spoken} name=${`${card.card}-${data.against}`} />
-    ${data.covered && html`<p class="small dim">${t('Shaded: what the source covers.')}</p>`}
+    ${data.covered && html`<p class="small dim">${card.sort === 'equipment' ? t('Shaded: within its practical limits.') : t('Shaded: what the source covers.')}</p>`}
     ${laws && card.sort === 'formula' && data.figure.data.length > 2 && html`<p class="small dim">${t('Thin lines: other laws.')}</p>`}</section>`;
 }

@@ -1,0 +1,67 @@
+"""A figure of a machine alone over one of its settings, beside its results."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.app.browsing import Page
+
+from granum.app import machine_curves
+from granum.app.beside import described_curve
+from granum.app.machine_curves import Machine
+from granum.core import registry
+from granum.core.errors import InputError
+
+CYCLONE = "cyclones.gas_cyclone"
+
+
+def drawn(key: str, **asked: object) -> dict:
+    return described_curve(registry.find(key), {"inputs": {}, **asked})
+
+
+def test_a_wider_cyclone_catches_less_and_the_present_one_is_on_the_curve() -> None:
+    machine = Machine(CYCLONE, {"diameter": "1 m"})
+    found = machine.curve(*machine.chosen("", ""))
+    assert found is not None
+    assert (found.against.name, found.output.name) == ("diameter", "removal_efficiency")
+    assert np.all(np.diff(found.y[np.isfinite(found.y)]) < 1e-12)
+    assert found.at == 1.0
+    assert found.point == pytest.approx(machine.run.units["gas_cyclone"].values.removal_efficiency, rel=1e-12)
+    assert not found.steep  # a share has a linear axis however small it gets
+
+
+def test_what_enters_can_run_too_and_is_told_by_its_inlet() -> None:
+    machine = Machine("streams.heater", {})
+    found = machine.curve(*machine.chosen("feed.temperature", "heat_duty"))
+    assert found is not None
+    assert machine.settings["feed.temperature"].label.endswith("(feed)")
+    slope = np.diff(found.y) / np.diff(found.x)
+    np.testing.assert_allclose(slope, slope[0], rtol=0.05)  # heat of a liquid: nearly as its degrees
+    assert slope[0] < 0.0
+
+
+def test_a_figure_alone_is_drawn_over_a_setting_that_moves_it() -> None:
+    found = drawn("comminution.screen", output="mass_flow_oversize")
+    assert found["output"] == "mass_flow_oversize"
+    assert len({round(y, 9) for y in found["figure"]["data"][0]["y"] if y is not None}) > 1
+
+
+def test_where_there_is_no_time_there_is_no_chart(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(machine_curves, "PATIENCE", 0.0)
+    assert drawn("streams.pump")["figure"] is None
+
+
+@pytest.mark.parametrize("asked", [{"against": "color"}, {"output": "color"}])
+def test_what_is_not_there_is_refused(asked: dict[str, str]) -> None:
+    with pytest.raises(InputError, match="color"):
+        drawn("streams.pump", **asked)
+
+
+def test_the_page_draws_it_and_another_on_demand(page: Page) -> None:
+    page.open("calculate/streams.pump", "fr")
+    assert page.one("[data-sensitivity]").get_attribute("data-sensitivity") == "pressure_rise"
+    menu = page.one("[data-sensitivity] select[data-menu=against]")
+    menu.find_element("css selector", "option[value='feed.mass_flow']").click()
+    page.until(lambda: page.one("[data-sensitivity='feed.mass_flow'] .spoken").text is not None)
+    page.says("[data-sensitivity]", "débit massique (alimentation)")
+    page.check()
