@@ -7,6 +7,8 @@ from validation import filtration_leaf, filtration_pressures
 
 import granum as gr
 from granum.app.shipped import examples_folder
+from granum.filtration.equipment.continuous import RotaryVacuumDrum
+from granum.streams.utilities import pumped
 
 f = gr.filtration
 TESTS = Path(examples_folder()) / "leaf-filter"
@@ -72,6 +74,8 @@ volume_twice = f.filtrate_volume_constant_pressure(
 lost = 1 - (float(volume_twice) / (twice + 1800)) / float(press.mean_filtrate_flow)
 drum_rate = float(drum_flow) * 23.47
 drum_cake = drum_rate * 120 / 50 / (2710 * 0.5)
+drum_drive = 50 * RotaryVacuumDrum.card.parameter("drive_power_per_area").default
+press_pump = pumped(press.mean_filtrate_flow, 3.38e5)
 
 # ---- quick tests
 BENCH = Path(examples_folder()) / "lab-tests"

@@ -62,6 +62,7 @@ from granum.filtration.equipment.gravity import (
     GravityFilter as GravityFilter,
 )
 from granum.filtration.equipment.membranes import (
+    Chain as Chain,
     MembraneFigures as MembraneFigures,
     OsmosisFigures as OsmosisFigures,
     Parted as Parted,
