@@ -126,6 +126,17 @@ sunk_settled = f.filtration_time_settling(
     medium_resistance="1e9 1/m",
 )
 
+# ---- clay
+CLAY = {"void_fraction": 0.54, "consolidation_coefficient": "1e-7 m2/s"}
+tube = gr.alone("filtration.tube_press", **CLAY).solve()
+pressed = tube.figure("tube_press.moisture_dry_basis")
+clay = pressed / (1 + pressed)
+unpressed = 0.54 * 998 / (0.54 * 998 + 0.46 * tube.streams["feed"].solid_density)
+reached = [
+    float(f.consolidation_ratio_terzaghi(f.consolidation_time("3 min", "1e-7 m2/s", 0.46 * z)))
+    for z in (0.01, 0.02)
+]
+
 # ---- wash
 left_good = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=50)
 left_poor = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=5)

@@ -28,6 +28,8 @@ QUICK = (
     "screen ideal",
     "sized screen 3 wet",
     "drum",
+    "tower",
+    "tube",
     "gravity",
     "decanter",
     "peeler",

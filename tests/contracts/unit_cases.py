@@ -53,6 +53,7 @@ from granum.filtration.equipment.continuous import (
 )
 from granum.filtration.equipment.deep_bed import DeepBedFilter
 from granum.filtration.equipment.gravity import GravityFilter
+from granum.filtration.equipment.high_presses import TowerPress, TubePress
 from granum.particles.partition import (
     BypassedPartition,
     IdealPartition,
@@ -295,6 +296,31 @@ def filters(classes: int) -> dict[str, Case]:
                 void_fraction_squeezed=0.3 + 0.2 * u[3],
                 squeezing_time=300.0 + 1500.0 * u[4],
                 consolidation_coefficient=10.0 ** (-9.0 + 3.0 * u[5]),
+                **batch(u),
+            ),
+        ),
+        "tower": Case(
+            fine,
+            with_wash,
+            lambda f, u: TowerPress(
+                *_cake(f, u),
+                full_cake_thickness=0.015 + 0.04 * u[4],
+                squeezing_pressure=2e5 + 1.4e6 * u[3],
+                compaction_exponent=0.2 * u[5],
+                squeezing_time=30.0 + 300.0 * u[4],
+                consolidation_coefficient=10.0 ** (-9.0 + 3.0 * u[5]),
+                **batch(u),
+            ),
+        ),
+        "tube": Case(
+            fine,
+            with_wash,
+            lambda f, u: TubePress(
+                *_cake(f, u),
+                full_cake_thickness=0.004 + 0.016 * u[4],
+                candle_radius=0.05 + 0.1 * u[5],
+                squeezing_pressure=4e6 + 1e7 * u[3],
+                compaction_exponent=0.2 * u[5],
                 **batch(u),
             ),
         ),

@@ -124,6 +124,21 @@ WASHED = {
     "filtration.pressure_leaf_filter": FILTER | {"area": 20.0, "full_cake_thickness": 0.03},
     "filtration.rotary_disc_filter": FILTER | {"area": 20.0, "rotation_speed": "1 rpm"},
     "filtration.rotary_vacuum_drum": FILTER | {"area": 10.0, "rotation_speed": "1 rpm"},
+    "filtration.tower_press": FILTER
+    | {
+        "area": 20.0,
+        "full_cake_thickness": 0.03,
+        "squeezing_pressure": 1.5e6,
+        "compaction_exponent": 0.05,
+    },
+    "filtration.tube_press": FILTER
+    | {
+        "area": 20.0,
+        "full_cake_thickness": 0.01,
+        "candle_radius": 0.1,
+        "squeezing_pressure": 1e7,
+        "compaction_exponent": 0.05,
+    },
 }
 POWDER = {
     "comminution.ball_mill": {

@@ -18,6 +18,7 @@ from granum.filtration.equipment.batch import (
     PlateAndFramePress as PlateAndFramePress,
     Press as Press,
     PressureLeafFilter as PressureLeafFilter,
+    SqueezingFilter as SqueezingFilter,
 )
 from granum.filtration.equipment.belt_press import (
     BeltPress as BeltPress,
@@ -60,6 +61,11 @@ from granum.filtration.equipment.gravity import (
     Drained as Drained,
     GravityFigures as GravityFigures,
     GravityFilter as GravityFilter,
+)
+from granum.filtration.equipment.high_presses import (
+    HighPress as HighPress,
+    TowerPress as TowerPress,
+    TubePress as TubePress,
 )
 from granum.filtration.equipment.membranes import (
     Chain as Chain,

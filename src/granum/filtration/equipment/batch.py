@@ -137,27 +137,38 @@ class ChamberPress(Press):
     """
 
 
-@equipment("membrane_press", source="wakeman2005", title="Membrane filter press")
-class MembranePress(Press):
-    """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing
-    time.
+class SqueezingFilter(BatchFilter):
+    """Abstract batch filter that squeezes its washed cake towards a lower void fraction, draining on one
+    face.
 
-    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber
-    draining on one face; without, it is taken as reached.
+    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law in the squeezing
+    time; without, it is taken as reached.
     """
 
-    void_fraction_squeezed: VoidFraction
+    _: KW_ONLY
     squeezing_time: Time = 600.0
     consolidation_coefficient: Diffusivity | None = None
 
-    limits: ClassVar[Limits] = Press.limits | {
+    utilities: ClassVar[Utilities] = BatchFilter.utilities | {
+        "electric_power_squeeze": Utility("wakeman2005")
+    }
+
+    limits: ClassVar[Limits] = BatchFilter.limits | {
         "squeezed": Limit(
             "void fraction after squeezing over before", 0.3, 1.0, "dimensionless", "wakeman2005"
         ),
         "reached": Limit("share of the possible squeezing reached", 0.8, 1.0, "dimensionless", "shirato1974"),
     }
 
-    utilities: ClassVar[Utilities] = Press.utilities | {"electric_power_squeeze": Utility("wakeman2005")}
+    @property
+    @abc.abstractmethod
+    def void_fraction_end(self) -> Any:
+        """Void fraction that squeezing leads to in the end."""
+
+    @property
+    def pressure_end(self) -> Any:
+        """Pressure at which what is squeezed out is moved."""
+        return self.pressure_drop
 
     @property
     def consolidation_ratio(self) -> Any:
@@ -170,7 +181,7 @@ class MembranePress(Press):
         )
 
     def squeezed(self) -> Any:
-        after, before = self.void_fraction_squeezed, self.void_fraction
+        after, before = self.void_fraction_end, self.void_fraction
         whole = (after / (1.0 - after)) / (before / (1.0 - before))
         return 1.0 - self.consolidation_ratio * (1.0 - whole)
 
@@ -183,7 +194,7 @@ class MembranePress(Press):
         self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
     ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {
-            "squeezed": self.void_fraction_squeezed / self.void_fraction,
+            "squeezed": self.void_fraction_end / self.void_fraction,
             "reached": self.consolidation_ratio,
         }
 
@@ -192,8 +203,26 @@ class MembranePress(Press):
     ) -> dict[str, Any]:
         pressed = (1.0 - self.squeezed()) * inside.slurry.void_volume_flow
         return super().drawn(inside, outlets, figures, feed, wash) | {
-            "electric_power_squeeze": pumped(pressed, self.pressure_drop)
+            "electric_power_squeeze": pumped(pressed, self.pressure_end)
         }
+
+
+@equipment("membrane_press", source="wakeman2005", title="Membrane filter press")
+class MembranePress(SqueezingFilter, Press):
+    """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing
+    time.
+
+    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber
+    draining on one face; without, it is taken as reached.
+    """
+
+    void_fraction_squeezed: VoidFraction
+
+    limits: ClassVar[Limits] = Press.limits | SqueezingFilter.limits
+
+    @property
+    def void_fraction_end(self) -> Any:
+        return self.void_fraction_squeezed
 
 
 @equipment("nutsche", source="wakeman2005", title="Nutsche filter")
