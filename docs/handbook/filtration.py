@@ -129,13 +129,21 @@ sunk_settled = f.filtration_time_settling(
 # ---- clay
 CLAY = {"void_fraction": 0.54, "consolidation_coefficient": "1e-7 m2/s"}
 tube = gr.alone("filtration.tube_press", **CLAY).solve()
-pressed = tube.figure("tube_press.moisture_dry_basis")
-clay = pressed / (1 + pressed)
+wet_clay = tube.figure("tube_press.moisture_dry_basis")
+clay = wet_clay / (1 + wet_clay)
 unpressed = 0.54 * 998 / (0.54 * 998 + 0.46 * tube.streams["feed"].solid_density)
 reached = [
     float(f.consolidation_ratio_terzaghi(f.consolidation_time("3 min", "1e-7 m2/s", 0.46 * z)))
     for z in (0.01, 0.02)
 ]
+
+# ---- cartridges
+cartridges = gr.alone("filtration.cartridge_filter").solve()
+lasting = cartridges.figure("cartridge_filter.run_time")
+twice_as_many = gr.alone("filtration.cartridge_filter", cartridge_lengths=60).solve()
+lasting_many = twice_as_many.figure("cartridge_filter.run_time") / lasting
+dirtier = gr.alone("filtration.cartridge_filter", feed={"solid_flow": "1.5 kg/h"}).solve()
+lasting_dirty = dirtier.figure("cartridge_filter.run_time")
 
 # ---- wash
 left_good = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=50)

@@ -27,6 +27,7 @@ QUICK = (
     "mill plug",
     "screen ideal",
     "sized screen 3 wet",
+    "cartridge",
     "drum",
     "tower",
     "tube",

@@ -45,6 +45,7 @@ from granum.filtration.equipment.batch import (
     PlateAndFramePress,
     PressureLeafFilter,
 )
+from granum.filtration.equipment.cartridge import CartridgeFilter
 from granum.filtration.equipment.continuous import (
     HorizontalBeltFilter,
     PrecoatDrum,
@@ -355,6 +356,18 @@ def filters(classes: int) -> dict[str, Case]:
                 medium_resistance=10.0 ** (9.0 + 2.0 * u[4]),
                 deliquoring_time=1800.0 * u[5],
                 solids_recovery=0.9 + 0.1 * u[4],
+            ),
+        ),
+        "cartridge": Case(
+            bed,
+            thin,
+            lambda f, u: CartridgeFilter(
+                f["feed"].slurry_volume_flow / HOUR_RATE * 10.0 ** (1.5 * u[0]),
+                10.0 ** (-6.5 + 2.5 * u[1]),
+                0.01 + 0.2 * u[2],
+                removal_rated=0.5 + 0.4999 * u[3],
+                pressure_drop_change=5e4 + 2.5e5 * u[4],
+                pressure_drop_rated=10.0 ** (3.0 + 1.5 * u[5]),
             ),
         ),
         "deep bed": Case(

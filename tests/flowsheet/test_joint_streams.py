@@ -46,6 +46,12 @@ SLURRY = {
     "centrifuges.solid_basket": BOWL | {"bowl_length": 0.5},
     "centrifuges.tubular_bowl": BOWL | {"bowl_length": 0.7},
     "cyclones.hydrocyclone": {"diameter": "100 mm", "underflow_diameter": "20 mm"},
+    "filtration.cartridge_filter": {
+        "cartridge_lengths": 100,
+        "particle_diameter_rated": "5 um",
+        "dirt_capacity": 0.1,
+        "pressure_drop_change": "3 bar",
+    },
     "filtration.deep_bed_filter": {"area": 2.0, "bed_depth": 1.0, "collector_diameter": "0.8 mm"},
     "fluidization.liquid_fluidized_bed": {
         "area": 0.02,

@@ -42,6 +42,12 @@ from granum.filtration.equipment.carbon import (
     LiquidCarbonBed as LiquidCarbonBed,
     Purified as Purified,
 )
+from granum.filtration.equipment.cartridge import (
+    CartridgeFigures as CartridgeFigures,
+    CartridgeFilter as CartridgeFilter,
+    CartridgeOutlets as CartridgeOutlets,
+    Held as Held,
+)
 from granum.filtration.equipment.continuous import (
     ContinuousFilter as ContinuousFilter,
     HorizontalBeltFilter as HorizontalBeltFilter,
@@ -90,6 +96,7 @@ from granum.filtration.formulas.backwash import (
     head_loss_backwash as head_loss_backwash,
 )
 from granum.filtration.formulas.blocking import (
+    dirt_held_blocking as dirt_held_blocking,
     filtrate_volume_blocking as filtrate_volume_blocking,
 )
 from granum.filtration.formulas.compressible import (
