@@ -40,6 +40,16 @@ low_n, high_n = pressures["compressibility"].interval_95
 gain_carbonate = 2 ** (1 - n)  # flux at twice the pressure
 gain_sludge = 2 ** (1 - 0.85)
 
+# ---- thinning
+thin_gain = [
+    gr.alone("filtration.chamber_press", pressure_drop=p, **law)
+    .solve()
+    .figure("chamber_press.formation_time")
+    for law in ({}, {"consistency": "20 cP", "flow_index": 0.5})
+    for p in ("3 bar", "6 bar")
+]
+gain_newton, gain_thinning = thin_gain[0] / thin_gain[1], thin_gain[2] / thin_gain[3]
+
 # ---- course
 voids = f.void_fraction_cake(dry_cake_mass="0.236 kg", cake_volume="145 cm3", solid_density=2630)
 alpha_course = f.cake_resistance_kozeny_carman(

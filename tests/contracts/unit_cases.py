@@ -335,6 +335,17 @@ def filters(classes: int) -> dict[str, Case]:
             with_wash,
             lambda f, u: PressureLeafFilter(*_cake(f, u), full_cake_thickness=0.01 + 0.03 * u[4], **batch(u)),
         ),
+        "thinning": Case(
+            fine,
+            with_wash,
+            lambda f, u: ChamberPress(
+                *_cake(f, u),
+                chamber_depth=0.02 + 0.03 * u[4],
+                consistency=10.0 ** (-3.0 + 3.0 * u[3]),
+                flow_index=0.3 + 0.9 * u[5],
+                **batch(u),
+            ),
+        ),
         "candle": Case(
             fine,
             with_wash,

@@ -13,6 +13,7 @@ from granum.filtration.equipment.batch import (
     BatchFilter as BatchFilter,
     CandleFilter as CandleFilter,
     ChamberPress as ChamberPress,
+    FlatFilter as FlatFilter,
     MembranePress as MembranePress,
     Nutsche as Nutsche,
     PlateAndFramePress as PlateAndFramePress,

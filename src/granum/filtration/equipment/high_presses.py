@@ -13,7 +13,7 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.kinds import Length, PressureDrop, Ratio, Time, Within
 from granum.core.limits import Limit
-from granum.filtration.equipment.batch import CandleFilter, SqueezingFilter
+from granum.filtration.equipment.batch import CandleFilter, FlatFilter, SqueezingFilter
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures
 from granum.filtration.squeezing import void_ratio
 from granum.streams.cakes import Filtered
@@ -67,7 +67,7 @@ class HighPress(SqueezingFilter):
 
 
 @equipment("tower_press", source="wakeman2005; tiller1953", title="Tower filter press", equation=EQUATION)
-class TowerPress(HighPress):
+class TowerPress(HighPress, FlatFilter):
     """Horizontal plates one above the other on one endless cloth: the cake forms on it, a membrane squeezes
     it from above, air blows it, and the cloth carries it out of all chambers at once.
 
@@ -79,12 +79,16 @@ class TowerPress(HighPress):
     squeezing_time: Time = eqx.field(kw_only=True, default=120.0)
     dead_time: Time = eqx.field(kw_only=True, default=180.0)
 
-    limits: ClassVar[Limits] = HighPress.limits | {
-        "pressure": Limit("pressure drop of a press", 1e5, 1.6e6, "Pa", "wakeman2005"),
-        "squeeze": Limit("squeezing pressure", 4e5, 1.6e6, "Pa", "wakeman2005"),
-        "cake": Limit("cake thickness in a tower press", 0.015, 0.075, "m", "wakeman2005"),
-        "cycle": Limit("cycle time of an automatic press", 300.0, 1800.0, "s", "wakeman2005"),
-    }
+    limits: ClassVar[Limits] = (
+        FlatFilter.limits
+        | HighPress.limits
+        | {
+            "pressure": Limit("pressure drop of a press", 1e5, 1.6e6, "Pa", "wakeman2005"),
+            "squeeze": Limit("squeezing pressure", 4e5, 1.6e6, "Pa", "wakeman2005"),
+            "cake": Limit("cake thickness in a tower press", 0.015, 0.075, "m", "wakeman2005"),
+            "cycle": Limit("cycle time of an automatic press", 300.0, 1800.0, "s", "wakeman2005"),
+        }
+    )
 
     @property
     def full_thickness(self) -> Any:
