@@ -7,6 +7,8 @@ from validation import filtration_leaf, filtration_pressures
 
 import granum as gr
 from granum.app.shipped import examples_folder
+from granum.filtration.equipment.continuous import RotaryVacuumDrum
+from granum.streams.utilities import pumped
 
 f = gr.filtration
 TESTS = Path(examples_folder()) / "leaf-filter"
@@ -37,6 +39,16 @@ n = pressures["compressibility"].value
 low_n, high_n = pressures["compressibility"].interval_95
 gain_carbonate = 2 ** (1 - n)  # flux at twice the pressure
 gain_sludge = 2 ** (1 - 0.85)
+
+# ---- thinning
+thin_gain = [
+    gr.alone("filtration.chamber_press", pressure_drop=p, **law)
+    .solve()
+    .figure("chamber_press.formation_time")
+    for law in ({}, {"consistency": "20 cP", "flow_index": 0.5})
+    for p in ("3 bar", "6 bar")
+]
+gain_newton, gain_thinning = thin_gain[0] / thin_gain[1], thin_gain[2] / thin_gain[3]
 
 # ---- course
 voids = f.void_fraction_cake(dry_cake_mass="0.236 kg", cake_volume="145 cm3", solid_density=2630)
@@ -72,6 +84,8 @@ volume_twice = f.filtrate_volume_constant_pressure(
 lost = 1 - (float(volume_twice) / (twice + 1800)) / float(press.mean_filtrate_flow)
 drum_rate = float(drum_flow) * 23.47
 drum_cake = drum_rate * 120 / 50 / (2710 * 0.5)
+drum_drive = 50 * RotaryVacuumDrum.card.parameter("drive_power_per_area").default
+press_pump = pumped(press.mean_filtrate_flow, 3.38e5)
 
 # ---- quick tests
 BENCH = Path(examples_folder()) / "lab-tests"
@@ -121,6 +135,25 @@ sunk_settled = f.filtration_time_settling(
     cake_resistance="1e9 m/kg",
     medium_resistance="1e9 1/m",
 )
+
+# ---- clay
+CLAY = {"void_fraction": 0.54, "consolidation_coefficient": "1e-7 m2/s"}
+tube = gr.alone("filtration.tube_press", **CLAY).solve()
+wet_clay = tube.figure("tube_press.moisture_dry_basis")
+clay = wet_clay / (1 + wet_clay)
+unpressed = 0.54 * 998 / (0.54 * 998 + 0.46 * tube.streams["feed"].solid_density)
+reached = [
+    float(f.consolidation_ratio_terzaghi(f.consolidation_time("3 min", "1e-7 m2/s", 0.46 * z)))
+    for z in (0.01, 0.02)
+]
+
+# ---- cartridges
+cartridges = gr.alone("filtration.cartridge_filter").solve()
+lasting = cartridges.figure("cartridge_filter.run_time")
+twice_as_many = gr.alone("filtration.cartridge_filter", cartridge_lengths=60).solve()
+lasting_many = twice_as_many.figure("cartridge_filter.run_time") / lasting
+dirtier = gr.alone("filtration.cartridge_filter", feed={"solid_flow": "1.5 kg/h"}).solve()
+lasting_dirty = dirtier.figure("cartridge_filter.run_time")
 
 # ---- wash
 left_good = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=50)

@@ -45,6 +45,7 @@ from granum.filtration.equipment.batch import (
     PlateAndFramePress,
     PressureLeafFilter,
 )
+from granum.filtration.equipment.cartridge import CartridgeFilter
 from granum.filtration.equipment.continuous import (
     HorizontalBeltFilter,
     PrecoatDrum,
@@ -53,6 +54,7 @@ from granum.filtration.equipment.continuous import (
 )
 from granum.filtration.equipment.deep_bed import DeepBedFilter
 from granum.filtration.equipment.gravity import GravityFilter
+from granum.filtration.equipment.high_presses import TowerPress, TubePress
 from granum.particles.partition import (
     BypassedPartition,
     IdealPartition,
@@ -298,6 +300,31 @@ def filters(classes: int) -> dict[str, Case]:
                 **batch(u),
             ),
         ),
+        "tower": Case(
+            fine,
+            with_wash,
+            lambda f, u: TowerPress(
+                *_cake(f, u),
+                full_cake_thickness=0.015 + 0.04 * u[4],
+                squeezing_pressure=2e5 + 1.4e6 * u[3],
+                compaction_exponent=0.2 * u[5],
+                squeezing_time=30.0 + 300.0 * u[4],
+                consolidation_coefficient=10.0 ** (-9.0 + 3.0 * u[5]),
+                **batch(u),
+            ),
+        ),
+        "tube": Case(
+            fine,
+            with_wash,
+            lambda f, u: TubePress(
+                *_cake(f, u),
+                full_cake_thickness=0.004 + 0.016 * u[4],
+                candle_radius=0.05 + 0.1 * u[5],
+                squeezing_pressure=4e6 + 1e7 * u[3],
+                compaction_exponent=0.2 * u[5],
+                **batch(u),
+            ),
+        ),
         "nutsche": Case(
             fine,
             with_wash,
@@ -307,6 +334,17 @@ def filters(classes: int) -> dict[str, Case]:
             fine,
             with_wash,
             lambda f, u: PressureLeafFilter(*_cake(f, u), full_cake_thickness=0.01 + 0.03 * u[4], **batch(u)),
+        ),
+        "thinning": Case(
+            fine,
+            with_wash,
+            lambda f, u: ChamberPress(
+                *_cake(f, u),
+                chamber_depth=0.02 + 0.03 * u[4],
+                consistency=10.0 ** (-3.0 + 3.0 * u[3]),
+                flow_index=0.3 + 0.9 * u[5],
+                **batch(u),
+            ),
         ),
         "candle": Case(
             fine,
@@ -329,6 +367,18 @@ def filters(classes: int) -> dict[str, Case]:
                 medium_resistance=10.0 ** (9.0 + 2.0 * u[4]),
                 deliquoring_time=1800.0 * u[5],
                 solids_recovery=0.9 + 0.1 * u[4],
+            ),
+        ),
+        "cartridge": Case(
+            bed,
+            thin,
+            lambda f, u: CartridgeFilter(
+                f["feed"].slurry_volume_flow / HOUR_RATE * 10.0 ** (1.5 * u[0]),
+                10.0 ** (-6.5 + 2.5 * u[1]),
+                0.01 + 0.2 * u[2],
+                removal_rated=0.5 + 0.4999 * u[3],
+                pressure_drop_change=5e4 + 2.5e5 * u[4],
+                pressure_drop_rated=10.0 ** (3.0 + 1.5 * u[5]),
             ),
         ),
         "deep bed": Case(

@@ -229,3 +229,17 @@ def test_a_filter_says_when_its_cake_would_flow_and_when_it_is_no_cake():
     assert 0.0 < moisture < 0.5
     assert not checked(transportable_moisture_limit=0.9 * moisture)["cake moisture, wet basis"].ok
     assert checked(transportable_moisture_limit=1.1 * moisture)["cake moisture, wet basis"].ok
+
+
+def test_what_turns_a_drum_has_the_size_of_a_nameplate():
+    """Drums of 5 to 80 m² carry motors of 1 to 7.5 kW (from memory); none turns for nothing."""
+    feed = stream(mixture(), 0.15, 0.6)
+    given = {"pressure_drop": 6e4, "cake_resistance": 1e11, "void_fraction": 0.5, "rotation_speed": 0.03}
+
+    def drive(area, **more):
+        uses = RotaryVacuumDrum(area=area, **given, **more).operate(feed=feed).uses
+        return float(uses["electric_power_drive"])
+
+    assert 1e3 / 3.0 <= drive(5.0) < drive(80.0) <= 3.0 * 7.5e3
+    assert drive(20.0, drive_power_per_area="0.2 kW/m2") == pytest.approx(4e3)
+    assert drive(20.0, drive_power_per_area=0.0) == 0.0

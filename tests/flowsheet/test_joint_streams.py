@@ -46,6 +46,12 @@ SLURRY = {
     "centrifuges.solid_basket": BOWL | {"bowl_length": 0.5},
     "centrifuges.tubular_bowl": BOWL | {"bowl_length": 0.7},
     "cyclones.hydrocyclone": {"diameter": "100 mm", "underflow_diameter": "20 mm"},
+    "filtration.cartridge_filter": {
+        "cartridge_lengths": 100,
+        "particle_diameter_rated": "5 um",
+        "dirt_capacity": 0.1,
+        "pressure_drop_change": "3 bar",
+    },
     "filtration.deep_bed_filter": {"area": 2.0, "bed_depth": 1.0, "collector_diameter": "0.8 mm"},
     "fluidization.liquid_fluidized_bed": {
         "area": 0.02,
@@ -124,6 +130,21 @@ WASHED = {
     "filtration.pressure_leaf_filter": FILTER | {"area": 20.0, "full_cake_thickness": 0.03},
     "filtration.rotary_disc_filter": FILTER | {"area": 20.0, "rotation_speed": "1 rpm"},
     "filtration.rotary_vacuum_drum": FILTER | {"area": 10.0, "rotation_speed": "1 rpm"},
+    "filtration.tower_press": FILTER
+    | {
+        "area": 20.0,
+        "full_cake_thickness": 0.03,
+        "squeezing_pressure": 1.5e6,
+        "compaction_exponent": 0.05,
+    },
+    "filtration.tube_press": FILTER
+    | {
+        "area": 20.0,
+        "full_cake_thickness": 0.01,
+        "candle_radius": 0.1,
+        "squeezing_pressure": 1e7,
+        "compaction_exponent": 0.05,
+    },
 }
 POWDER = {
     "comminution.ball_mill": {

@@ -77,3 +77,18 @@ def test_the_line_in_python_is_the_line_of_the_case_file() -> None:
     assert made.figure("mill.specific_energy") == pytest.approx(run.figure("mill.specific_energy"), rel=1e-9)
     for name in ("returned", "product"):
         np.testing.assert_allclose(made.streams[name].solid, run.streams[name].solid, rtol=1e-9, atol=1e-12)
+
+
+def test_a_feed_outside_its_size_classes_says_on_which_side_and_what_to_give() -> None:
+    """Rosin and Rammler by hand: with 2 mm 1 − exp(−0.005^1.5) = 0.0353 % and exp(−0.5^1.5) = 70.2 %, with
+    10 µm 1 − 1/e = 63.2 %.
+    """
+    law = {"law": "rosin_rammler", "distribution_exponent": 1.5}
+    water = {"liquid_flow": 1.0, "solid_flow": 0.1, "solid": {"quartz": 1.0, "calcite": 0.0}}
+    feed(WET, sizes={**law, "size_modulus": "200 um"}, **water)
+    with pytest.raises(
+        InputError, match=r"0\.0353 % .* begin at 10 µm, and 70\.2 % coarser than 1 mm.*'largest'"
+    ):
+        feed(WET, sizes={**law, "size_modulus": "2 mm"}, **water)
+    with pytest.raises(InputError, match=r"63\.2 % of the feed is finer .* 'smallest' or 'largest'"):
+        feed(WET, sizes={**law, "size_modulus": "10 um"}, **water)

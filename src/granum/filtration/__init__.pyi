@@ -13,11 +13,13 @@ from granum.filtration.equipment.batch import (
     BatchFilter as BatchFilter,
     CandleFilter as CandleFilter,
     ChamberPress as ChamberPress,
+    FlatFilter as FlatFilter,
     MembranePress as MembranePress,
     Nutsche as Nutsche,
     PlateAndFramePress as PlateAndFramePress,
     Press as Press,
     PressureLeafFilter as PressureLeafFilter,
+    SqueezingFilter as SqueezingFilter,
 )
 from granum.filtration.equipment.belt_press import (
     BeltPress as BeltPress,
@@ -41,6 +43,12 @@ from granum.filtration.equipment.carbon import (
     LiquidCarbonBed as LiquidCarbonBed,
     Purified as Purified,
 )
+from granum.filtration.equipment.cartridge import (
+    CartridgeFigures as CartridgeFigures,
+    CartridgeFilter as CartridgeFilter,
+    CartridgeOutlets as CartridgeOutlets,
+    Held as Held,
+)
 from granum.filtration.equipment.continuous import (
     ContinuousFilter as ContinuousFilter,
     HorizontalBeltFilter as HorizontalBeltFilter,
@@ -61,7 +69,13 @@ from granum.filtration.equipment.gravity import (
     GravityFigures as GravityFigures,
     GravityFilter as GravityFilter,
 )
+from granum.filtration.equipment.high_presses import (
+    HighPress as HighPress,
+    TowerPress as TowerPress,
+    TubePress as TubePress,
+)
 from granum.filtration.equipment.membranes import (
+    Chain as Chain,
     MembraneFigures as MembraneFigures,
     OsmosisFigures as OsmosisFigures,
     Parted as Parted,
@@ -83,6 +97,7 @@ from granum.filtration.formulas.backwash import (
     head_loss_backwash as head_loss_backwash,
 )
 from granum.filtration.formulas.blocking import (
+    dirt_held_blocking as dirt_held_blocking,
     filtrate_volume_blocking as filtrate_volume_blocking,
 )
 from granum.filtration.formulas.compressible import (

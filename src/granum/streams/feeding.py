@@ -17,6 +17,7 @@ from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
+from granum.core.units import format_number, show
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
@@ -198,12 +199,20 @@ def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
         sizes = law_of("size_distribution", law, where, options)
     edges = np.asarray(mixture.edges)
     cumulative = np.asarray(once(partial(_below, sizes), edges))
-    inside = cumulative[-1] - cumulative[0]
-    if not inside >= LEAST_INSIDE:
+    below, above = float(cumulative[0]), float(1.0 - cumulative[-1])
+    if not below + above <= 1.0 - LEAST_INSIDE:
         raise InputError(
             _(
-                "{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes]."
-            ).format(where=where, missing=f"{100 * (1 - inside):.3g}")
+                "{where}: {below} % of the feed is finer than the size classes, which begin at {low}, and "
+                "{above} % coarser than {high}, where they end. Give another 'smallest' or 'largest' in "
+                "[mixture.sizes], or other 'boundaries'."
+            ).format(
+                where=where,
+                below=format_number(100 * below, 3),
+                above=format_number(100 * above, 3),
+                low=show(float(edges[0]), KINDS["Length"]),
+                high=show(float(edges[-1]), KINDS["Length"]),
+            )
         )
     return np.asarray(once(partial(_in_classes, sizes), edges))
 

@@ -12,12 +12,16 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
-from granum.core.kinds import Diffusivity, Length, Time, VoidFraction
+from granum.core.errors import CaseError
+from granum.core.i18n import _
+from granum.core.kinds import Diffusivity, DynamicViscosity, FlowIndex, Length, Time, VoidFraction
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
+from granum.filtration.formulas.non_newtonian import filtration_time_power_law
+from granum.porous.formulas.non_newtonian import dynamic_viscosity_permeable_christopher_middleman
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
@@ -93,12 +97,78 @@ class BatchFilter(CakeFilter):
         }
 
 
-class Press(BatchFilter):
+class FlatFilter(BatchFilter):
+    """Abstract batch filter whose cakes grow on flat faces, so that a liquid may thin as it flows: a power
+    law of ``consistency``, the viscosity at 1/s, and ``flow_index``, in place of the viscosity of the feed.
+
+    The cake then forms by that law. It drains as if the liquid had the viscosity with which it flowed at the
+    end of filtration, and is washed as by a liquid of Newton; a check tells both.
+    """
+
+    _: KW_ONLY
+    consistency: DynamicViscosity | None = None
+    flow_index: FlowIndex | None = None
+
+    limits: ClassVar[Limits] = BatchFilter.limits | {
+        "newton": Limit(
+            "flow index of a liquid that is washed or drained as one of Newton",
+            1.0,
+            1.0,
+            "dimensionless",
+            "christopher1965",
+        )
+    }
+
+    @property
+    def law(self) -> tuple[Any, Any] | None:
+        """Consistency and flow index, if the liquid has them."""
+        if (self.consistency is None) != (self.flow_index is None):
+            raise CaseError(_("A power law needs both 'consistency' and 'flow_index': only one was given."))
+        return None if self.consistency is None else (self.consistency, self.flow_index)
+
+    def slurry(self, feed: Stream, wash: Stream | None = None) -> Slurry:
+        s, law = super().slurry(feed, wash), self.law
+        if law is None:
+            return s
+        through = self.resistance * self.loading(s) + self.medium_resistance
+        at_one = dynamic_viscosity_permeable_christopher_middleman(
+            1.0, self.permeability(s), self.void_fraction, *law
+        )
+        last = (self.pressure_drop / (at_one * through)) ** (1.0 / law[1])
+        return s._replace(dynamic_viscosity=self.pressure_drop / (through * last))
+
+    def formation_time(self, s: Slurry) -> Any:
+        law = self.law
+        if law is None:
+            return super().formation_time(s)
+        return filtration_time_power_law(
+            self.loading(s) / s.dry_cake_per_filtrate,
+            1.0,
+            self.pressure_drop,
+            *law,
+            self.resistance,
+            s.dry_cake_per_filtrate,
+            self.void_fraction,
+            s.solid_density,
+            self.medium_resistance,
+        )
+
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        found, law = super().measured(inside, outlets, figures, feed, wash), self.law
+        if law is None:
+            return found
+        later = (inside.wash_ratio > 0.0) | (inside.plan.deliquoring_time > 0.0)
+        return found | {"newton": jnp.where(later, law[1], 1.0)}
+
+
+class Press(FlatFilter):
     """Abstract filter press: two cakes grow towards each other and fill a chamber."""
 
     chamber_depth: Length
 
-    limits: ClassVar[Limits] = BatchFilter.limits | {
+    limits: ClassVar[Limits] = FlatFilter.limits | {
         "pressure": Limit("pressure drop of a press", 1e5, 2.5e6, "Pa", "wakeman2005"),
         "chamber": Limit("chamber depth", 0.01, 0.06, "m", "wakeman2005"),
     }
@@ -137,27 +207,38 @@ class ChamberPress(Press):
     """
 
 
-@equipment("membrane_press", source="wakeman2005", title="Membrane filter press")
-class MembranePress(Press):
-    """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing
-    time.
+class SqueezingFilter(BatchFilter):
+    """Abstract batch filter that squeezes its washed cake towards a lower void fraction, draining on one
+    face.
 
-    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber
-    draining on one face; without, it is taken as reached.
+    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law in the squeezing
+    time; without, it is taken as reached.
     """
 
-    void_fraction_squeezed: VoidFraction
+    _: KW_ONLY
     squeezing_time: Time = 600.0
     consolidation_coefficient: Diffusivity | None = None
 
-    limits: ClassVar[Limits] = Press.limits | {
+    utilities: ClassVar[Utilities] = BatchFilter.utilities | {
+        "electric_power_squeeze": Utility("wakeman2005")
+    }
+
+    limits: ClassVar[Limits] = BatchFilter.limits | {
         "squeezed": Limit(
             "void fraction after squeezing over before", 0.3, 1.0, "dimensionless", "wakeman2005"
         ),
         "reached": Limit("share of the possible squeezing reached", 0.8, 1.0, "dimensionless", "shirato1974"),
     }
 
-    utilities: ClassVar[Utilities] = Press.utilities | {"electric_power_squeeze": Utility("wakeman2005")}
+    @property
+    @abc.abstractmethod
+    def void_fraction_end(self) -> Any:
+        """Void fraction that squeezing leads to in the end."""
+
+    @property
+    def pressure_end(self) -> Any:
+        """Pressure at which what is squeezed out is moved."""
+        return self.pressure_drop
 
     @property
     def consolidation_ratio(self) -> Any:
@@ -170,7 +251,7 @@ class MembranePress(Press):
         )
 
     def squeezed(self) -> Any:
-        after, before = self.void_fraction_squeezed, self.void_fraction
+        after, before = self.void_fraction_end, self.void_fraction
         whole = (after / (1.0 - after)) / (before / (1.0 - before))
         return 1.0 - self.consolidation_ratio * (1.0 - whole)
 
@@ -183,7 +264,7 @@ class MembranePress(Press):
         self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
     ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {
-            "squeezed": self.void_fraction_squeezed / self.void_fraction,
+            "squeezed": self.void_fraction_end / self.void_fraction,
             "reached": self.consolidation_ratio,
         }
 
@@ -192,17 +273,35 @@ class MembranePress(Press):
     ) -> dict[str, Any]:
         pressed = (1.0 - self.squeezed()) * inside.slurry.void_volume_flow
         return super().drawn(inside, outlets, figures, feed, wash) | {
-            "electric_power_squeeze": pumped(pressed, self.pressure_drop)
+            "electric_power_squeeze": pumped(pressed, self.pressure_end)
         }
 
 
+@equipment("membrane_press", source="wakeman2005", title="Membrane filter press")
+class MembranePress(SqueezingFilter, Press):
+    """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing
+    time.
+
+    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber
+    draining on one face; without, it is taken as reached.
+    """
+
+    void_fraction_squeezed: VoidFraction
+
+    limits: ClassVar[Limits] = Press.limits | SqueezingFilter.limits
+
+    @property
+    def void_fraction_end(self) -> Any:
+        return self.void_fraction_squeezed
+
+
 @equipment("nutsche", source="wakeman2005", title="Nutsche filter")
-class Nutsche(BatchFilter):
+class Nutsche(FlatFilter):
     """Closed vessel with one flat filter bottom: deep cakes, smoothed, washed and blown in place."""
 
     full_cake_thickness: Length
 
-    limits: ClassVar[Limits] = BatchFilter.limits | {
+    limits: ClassVar[Limits] = FlatFilter.limits | {
         "pressure": Limit("pressure drop of a Nutsche", 5e4, 6e5, "Pa", "wakeman2005"),
         "cake": Limit("cake thickness in a Nutsche", 0.05, 0.5, "m", "wakeman2005"),
     }
@@ -221,14 +320,14 @@ class Nutsche(BatchFilter):
 
 
 @equipment("pressure_leaf_filter", source="wakeman2005", title="Pressure leaf filter")
-class PressureLeafFilter(BatchFilter):
+class PressureLeafFilter(FlatFilter):
     """Leaves in a pressure vessel, cake on both faces, dropped by vibration or sluicing; the area is that of
     all faces.
     """
 
     full_cake_thickness: Length
 
-    limits: ClassVar[Limits] = BatchFilter.limits | {
+    limits: ClassVar[Limits] = FlatFilter.limits | {
         "pressure": Limit("pressure drop of a pressure vessel filter", 1e5, 6e5, "Pa", "wakeman2005"),
         "cake": Limit("cake thickness on a leaf", 0.005, 0.04, "m", "wakeman2005"),
     }
@@ -256,6 +355,8 @@ class PressureLeafFilter(BatchFilter):
 class CandleFilter(BatchFilter):
     """Cylindrical elements in a pressure vessel: the cake grows outward and thins the flow through it; area
     that of the candles.
+
+    For liquids of Newton: on a cylinder there is no power law here.
     """
 
     full_cake_thickness: Length

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 
 from granum.core import equipment
@@ -31,7 +32,8 @@ from granum.core.limits import Limit
 from granum.filtration.formulas.membrane_transport import molecule_diameter, rejection_ferry
 from granum.filtration.formulas.membranes import rejection_solution_diffusion
 from granum.filtration.kinds import EnergyPerVolume
-from granum.filtration.membranes import Membrane, Staged, matter, staged
+from granum.filtration.membranes import Membrane, matter, staged
+from granum.numerics.loops import told_scan
 from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.drives import shaft_power_incompressible
 from granum.streams.stream import Stream
@@ -57,6 +59,18 @@ class Parted(NamedTuple):
     retentate: Stream
     permeate: Stream
     shaft_power: Any
+
+
+class Chain(NamedTuple):
+    """Stages in series: what the last one leaves and what all pass together, at the temperature inside;
+    of each stage its flux and polarization modulus; the osmotic pressure of the last retentate.
+    """
+
+    retentate: Stream
+    permeate: Stream
+    flux: Any
+    modulus: Any
+    osmotic: Any
 
 
 class MembraneFigures(NamedTuple):
@@ -96,29 +110,26 @@ class _Plant(Unit):
 
     utilities: ClassVar[Utilities] = PUMPED | AREA
 
-    def chain(
-        self, feed: Stream, membrane: Membrane, count: int, fresh: Stream | None = None
-    ) -> list[Staged]:
+    def chain(self, feed: Stream, membrane: Membrane, count: int, fresh: Stream | None = None) -> Chain:
         """The stages one after the other, fresh solvent in equal parts into each."""
-        stages: list[Staged] = []
-        for _stage in range(count):
-            if fresh is not None:
-                feed = feed + fresh.part(solid=1.0 / count, liquid=1.0 / count, gas=1.0 / count)
-            stages.append(staged(feed, membrane))
-            feed = stages[-1].retentate
-        card = type(self).card
-        driven_, found = (jnp.all(jnp.stack([getattr(s, x) for s in stages])) for x in ("driven", "found"))
-        unsolved(driven_, card, reason=HELD)
-        unsolved(found, card, reason=EMPTIED)
-        return stages
 
-    def joined(self, stages: list[Staged], entering: Any, power: Any) -> Parted:
+        def stage(entering: Stream, _row: None) -> tuple[Stream, tuple[Any, ...]]:
+            if fresh is not None:
+                entering = entering + fresh.part(solid=1.0 / count, liquid=1.0 / count, gas=1.0 / count)
+            retentate, permeate, *found = staged(entering, membrane)
+            return retentate, (permeate.solid, permeate.liquid, *found)
+
+        start = jax.tree.map(lambda x: jnp.asarray(x, dtype=float), feed)
+        left, (solid, liquid, flux, modulus, osmotic, driven_, found) = told_scan(stage, start, length=count)
+        card = type(self).card
+        unsolved(jnp.all(driven_), card, reason=HELD)
+        unsolved(jnp.all(found), card, reason=EMPTIED)
+        permeate = left.part().replace(solid=jnp.sum(solid, axis=0), liquid=jnp.sum(liquid, axis=0))
+        return Chain(left, permeate, flux, modulus, osmotic[-1])
+
+    def joined(self, chain: Chain, entering: Any, power: Any) -> Parted:
         """Retentate and permeate at the temperature that the enthalpy of what entered and the pumps give."""
-        retentate, permeate = stages[-1].retentate, stages[0].permeate
-        for stage in stages[1:]:
-            permeate = permeate.replace(
-                solid=permeate.solid + stage.permeate.solid, liquid=permeate.liquid + stage.permeate.liquid
-            )
+        retentate, permeate = chain.retentate, chain.permeate
         whole = retentate.replace(
             solid=retentate.solid + permeate.solid, liquid=retentate.liquid + permeate.liquid
         )
@@ -129,15 +140,10 @@ class _Plant(Unit):
             power,
         )
 
-    def flux(self, stages: list[Staged]) -> tuple[Any, Any, Any]:
+    def flux(self, chain: Chain) -> tuple[Any, Any, Any]:
         """Mean and last flux, and the permeate of all stages, m³/s."""
-        fluxes = jnp.stack([s.flux for s in stages])
-        return jnp.mean(fluxes), fluxes[-1], jnp.mean(fluxes) * self.area
-
-
-def _greatest(stages: list[Staged]) -> Any:
-    """Polarization modulus, of all stages."""
-    return jnp.max(jnp.stack([s.modulus for s in stages]))
+        mean = jnp.mean(chain.flux)
+        return mean, chain.flux[-1], mean * self.area
 
 
 def _dissolved(stream: Stream) -> Any:
@@ -201,10 +207,10 @@ class Ultrafiltration(_Plant):
             self.concentration_gel,
         )
 
-    def inside(self, feed: Stream, solvent: Stream | None = None) -> list[Staged]:
+    def inside(self, feed: Stream, solvent: Stream | None = None) -> Chain:
         return self.chain(feed, self.membrane(feed), int(self.stage_count), solvent)
 
-    def outlets(self, inside: list[Staged], feed: Stream, solvent: Stream | None = None) -> Parted:
+    def outlets(self, inside: Chain, feed: Stream, solvent: Stream | None = None) -> Parted:
         entering, volume = feed.enthalpy_flow, feed.slurry_volume_flow
         if solvent is not None:
             entering = entering + solvent.enthalpy_flow
@@ -215,7 +221,7 @@ class Ultrafiltration(_Plant):
         return self.joined(inside, entering, power)
 
     def figures(
-        self, inside: list[Staged], outlets: Parted, feed: Stream, solvent: Stream | None = None
+        self, inside: Chain, outlets: Parted, feed: Stream, solvent: Stream | None = None
     ) -> MembraneFigures:
         mean, last, flow = self.flux(inside)
         return MembraneFigures(
@@ -223,8 +229,8 @@ class Ultrafiltration(_Plant):
             last,
             flow,
             safe_divide(feed.liquid_volume_flow, outlets.retentate.liquid_volume_flow, 1.0),
-            _greatest(inside),
-            inside[-1].osmotic,
+            jnp.max(inside.modulus),
+            inside.osmotic,
             matter(outlets.retentate, self.membrane(feed)),
             jnp.clip(safe_divide(outlets.retentate.solid_flow, feed.solid_flow, 1.0), 0.0, 1.0),
             outlets.shaft_power,
@@ -233,14 +239,14 @@ class Ultrafiltration(_Plant):
 
     def measured(
         self,
-        inside: list[Staged],
+        inside: Chain,
         outlets: Parted,
         figures: MembraneFigures,
         feed: Stream,
         solvent: Stream | None = None,
     ) -> dict[str, Any]:
         gel = self.concentration_gel
-        most = jnp.max(jnp.stack([s.flux for s in inside])) * self.area / int(self.stage_count)
+        most = jnp.max(inside.flux) * self.area / int(self.stage_count)
         return {
             "flux": figures.filtrate_flux,
             "pressure": jnp.asarray(self.pressure_drop),
@@ -250,7 +256,7 @@ class Ultrafiltration(_Plant):
 
     def drawn(
         self,
-        inside: list[Staged],
+        inside: Chain,
         outlets: Parted,
         figures: MembraneFigures,
         feed: Stream,
@@ -315,15 +321,15 @@ class ReverseOsmosis(_Plant):
             jnp.zeros((len(m.solids), m.sizes.size)),
         )
 
-    def inside(self, feed: Stream) -> list[Staged]:
+    def inside(self, feed: Stream) -> Chain:
         return self.chain(feed, self.membrane(feed), int(self.element_count))
 
-    def outlets(self, inside: list[Staged], feed: Stream) -> Parted:
+    def outlets(self, inside: Chain, feed: Stream) -> Parted:
         fed = shaft_power_incompressible(feed.slurry_volume_flow, self.pressure_drop, self.machine_efficiency)
-        back = self.energy_recovery_efficiency * inside[-1].retentate.slurry_volume_flow * self.pressure_drop
+        back = self.energy_recovery_efficiency * inside.retentate.slurry_volume_flow * self.pressure_drop
         return self.joined(inside, feed.enthalpy_flow, fed - back)
 
-    def figures(self, inside: list[Staged], outlets: Parted, feed: Stream) -> OsmosisFigures:
+    def figures(self, inside: Chain, outlets: Parted, feed: Stream) -> OsmosisFigures:
         mean, last, flow = self.flux(inside)
         leaves = safe_divide(_dissolved(outlets.permeate), _dissolved(feed), 0.0)
         return OsmosisFigures(
@@ -331,15 +337,15 @@ class ReverseOsmosis(_Plant):
             last,
             flow,
             jnp.clip(safe_divide(outlets.permeate.liquid_volume_flow, feed.liquid_volume_flow), 0.0, 1.0),
-            _greatest(inside),
-            inside[-1].osmotic,
+            jnp.max(inside.modulus),
+            inside.osmotic,
             jnp.clip(1.0 - leaves, 0.0, 1.0),
             outlets.shaft_power,
             safe_divide(outlets.shaft_power, flow, 0.0),
         )
 
     def measured(
-        self, inside: list[Staged], outlets: Parted, figures: OsmosisFigures, feed: Stream
+        self, inside: Chain, outlets: Parted, figures: OsmosisFigures, feed: Stream
     ) -> dict[str, Any]:
         return {
             "flux": figures.filtrate_flux,
@@ -347,7 +353,5 @@ class ReverseOsmosis(_Plant):
             "polarization": figures.polarization_modulus,
         }
 
-    def drawn(
-        self, inside: list[Staged], outlets: Parted, figures: OsmosisFigures, feed: Stream
-    ) -> dict[str, Any]:
+    def drawn(self, inside: Chain, outlets: Parted, figures: OsmosisFigures, feed: Stream) -> dict[str, Any]:
         return {"electric_power_pump": driven(outlets.shaft_power), "area_installed": self.area}
