@@ -49,6 +49,7 @@ QUICK = (
     "exchange",
     "hydroxide",
     "uptake",
+    "controlled",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

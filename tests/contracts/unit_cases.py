@@ -30,10 +30,11 @@ from granum.crystallization.equipment.batch import (
     PlugFlowCrystallizer,
     VacuumBatchCrystallizer,
 )
+from granum.crystallization.equipment.controlled import ControlledBatchCrystallizer
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.equipment.oslo import OsloCrystallizer
 from granum.crystallization.formulas.agglomeration import ConstantKernel, SumKernel
-from granum.crystallization.formulas.growth import PowerLawGrowth
+from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import NaturalCooling, PowerCooling
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
@@ -610,6 +611,16 @@ def crystallizers(classes: int) -> dict[str, Case]:
             )
         ),
         "batch": Cased(lambda f, u: BatchCrystallizer(temperature_program=cooling(f, u), **batch(u))),
+        "controlled": Cased(
+            lambda f, u: ControlledBatchCrystallizer(
+                10.0 ** (-2.5 + 1.5 * u[2]),
+                f["feed"].temperature - 1.0 - 30.0 * u[0],
+                cooling_rate_maximum=(5.0 + 55.0 * u[4]) / 3600.0,
+                concentration_deviation=0.01 * u[5],
+                dissolution=PowerLawDissolution(1e-4),
+                **batch(u),
+            )
+        ),
         "jacketed": Cased(
             lambda f, u: JacketedBatchCrystallizer(
                 jacket_program=NaturalCooling(f["feed"].temperature, 280.0 + 20.0 * u[0], 3600.0),

@@ -49,6 +49,10 @@ from granum.crystallization.equipment.batch import (
 from granum.crystallization.equipment.boiling import (
     Boiling as Boiling,
 )
+from granum.crystallization.equipment.controlled import (
+    ControlledBatchCrystallizer as ControlledBatchCrystallizer,
+    ControlledBatchFigures as ControlledBatchFigures,
+)
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
 )
@@ -259,6 +263,7 @@ from granum.crystallization.formulas.polymorphs import (
 from granum.crystallization.formulas.programs import (
     ConstantFlow as ConstantFlow,
     CoolingShares as CoolingShares,
+    CycledCooling as CycledCooling,
     NaturalCooling as NaturalCooling,
     PowerCooling as PowerCooling,
     Program as Program,
@@ -350,6 +355,7 @@ from granum.crystallization.population.operations import (
     Jacketed as Jacketed,
     Operation as Operation,
     Programmed as Programmed,
+    Sensor as Sensor,
 )
 from granum.crystallization.population.packets import (
     DispersedMoments as DispersedMoments,
@@ -401,6 +407,9 @@ from granum.crystallization.vessels.dynamic import (
     SteadyFeed as SteadyFeed,
     Surviving as Surviving,
     msmpr_over_time as msmpr_over_time,
+)
+from granum.crystallization.vessels.held import (
+    controlled_batch as controlled_batch,
 )
 from granum.crystallization.vessels.moving import (
     Moving as Moving,

@@ -49,7 +49,7 @@ from granum.crystallization.equipment.roles import (
 )
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
-from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, VesselVolume
+from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, VesselVolume
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Seeds
@@ -168,7 +168,9 @@ class Grown(NamedTuple):
 
 
 class BatchVessel(Unit):
-    """What batches share; each says how long it runs and what drives it."""
+    """What batches share; each says how long it runs and what drives it. Without a law of dissolution,
+    crystals keep in an undersaturated solution.
+    """
 
     solubility: Solubility = eqx.field(kw_only=True)
     growth: Growth = eqx.field(kw_only=True)
@@ -177,6 +179,7 @@ class BatchVessel(Unit):
     seed_size: Length = eqx.field(kw_only=True, default=100e-6)
     seed_width: Distance = eqx.field(kw_only=True, default=0.0)
     volume_shape_factor: PositiveNumber = eqx.field(kw_only=True, default=1.0)
+    dissolution: Dissolution | None = eqx.field(kw_only=True, default=None)
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
@@ -195,7 +198,12 @@ class BatchVessel(Unit):
     def _model(self, feed: Stream, found: Roles) -> Model:
         crystal = crystal_of(feed.mixture, found, feed.temperature, self.volume_shape_factor)
         return Model(
-            self.solubility, self.growth, self.nucleation, crystal, SuspensionVolume(feed.liquid_density)
+            self.solubility,
+            self.growth,
+            self.nucleation,
+            crystal,
+            SuspensionVolume(feed.liquid_density),
+            self.dissolution,
         )
 
     def _seeding(self, feed: Stream, found: Roles) -> tuple[Any, Seeds]:
