@@ -50,6 +50,7 @@ QUICK = (
     "hydroxide",
     "uptake",
     "controlled",
+    "baffled tube",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

@@ -27,12 +27,12 @@ from granum.comminution.population import LargeAndTwoSmall, PlugFlow, TanksInSer
 from granum.crystallization.equipment.batch import (
     BatchCrystallizer,
     JacketedBatchCrystallizer,
-    PlugFlowCrystallizer,
     VacuumBatchCrystallizer,
 )
 from granum.crystallization.equipment.controlled import ControlledBatchCrystallizer
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.equipment.oslo import OsloCrystallizer
+from granum.crystallization.equipment.tubes import BaffledTubeCrystallizer, PlugFlowCrystallizer
 from granum.crystallization.formulas.agglomeration import ConstantKernel, SumKernel
 from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
@@ -632,6 +632,19 @@ def crystallizers(classes: int) -> dict[str, Case]:
         ),
         "vacuum batch": Cased(
             lambda f, u: VacuumBatchCrystallizer(temperature_program=cooling(f, u), **batch(u))
+        ),
+        "baffled tube": Cased(
+            lambda f, u: BaffledTubeCrystallizer(
+                temperature_program=cooling(f, u),
+                diameter=0.01 + 0.1 * u[1],
+                length=10.0 + 90.0 * u[0],
+                oscillation_frequency=0.3 + 3.0 * u[2],
+                oscillation_amplitude=0.002 + 0.03 * u[3],
+                baffle_spacing=0.02 + 0.1 * u[4],
+                baffle_open_area=0.15 + 0.4 * u[5],
+                seed_mass_per_solvent=0.02 * u[3],
+                **laws(u),
+            )
         ),
         "tube": Cased(
             lambda f, u: PlugFlowCrystallizer(

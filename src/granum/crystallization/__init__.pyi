@@ -40,8 +40,6 @@ from granum.crystallization.equipment.batch import (
     Grown as Grown,
     JacketedBatchCrystallizer as JacketedBatchCrystallizer,
     JacketedBatchFigures as JacketedBatchFigures,
-    PlugFlowCrystallizer as PlugFlowCrystallizer,
-    PlugFlowFigures as PlugFlowFigures,
     VacuumBatchCrystallizer as VacuumBatchCrystallizer,
     VacuumBatchFigures as VacuumBatchFigures,
     VacuumBatchOutlets as VacuumBatchOutlets,
@@ -93,6 +91,13 @@ from granum.crystallization.equipment.roles import (
 from granum.crystallization.equipment.stirring import (
     Stirred as Stirred,
     Stirring as Stirring,
+)
+from granum.crystallization.equipment.tubes import (
+    BaffledTubeCrystallizer as BaffledTubeCrystallizer,
+    BaffledTubeFigures as BaffledTubeFigures,
+    PlugFlowCrystallizer as PlugFlowCrystallizer,
+    PlugFlowFigures as PlugFlowFigures,
+    Tube as Tube,
 )
 from granum.crystallization.equipment.two_salts import (
     Parted as Parted,
@@ -309,6 +314,12 @@ from granum.crystallization.formulas.supersaturation import (
     supersaturation_ratio as supersaturation_ratio,
     supersaturation_ratio_solution_basis as supersaturation_ratio_solution_basis,
     undercooling as undercooling,
+)
+from granum.crystallization.formulas.tubes import (
+    OscillatoryFlow as OscillatoryFlow,
+    OscillatoryLoss as OscillatoryLoss,
+    oscillatory_flow as oscillatory_flow,
+    oscillatory_loss as oscillatory_loss,
 )
 from granum.crystallization.lab_tests.batch_kinetics import (
     BatchKinetics as BatchKinetics,

@@ -1,6 +1,4 @@
-"""Batch crystallizers in a line, and the tube that does to each parcel what a batch does to its charge: mean
-flows over the cycle.
-"""
+"""Batch crystallizers in a line: mean flows over the cycle."""
 
 from __future__ import annotations
 
@@ -136,19 +134,6 @@ class VacuumBatchFigures(NamedTuple):
     rotation_speed_suspension: RotationSpeed
     tip_speed: Velocity
     specific_power_input: SpecificPower
-
-
-class PlugFlowFigures(NamedTuple):
-    """Figures of a plug flow crystallizer."""
-
-    crystal_flow: MassFlow
-    yield_fraction: Ratio
-    magma_density: Concentration
-    relative_supersaturation_maximum: Number
-    mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
-    residence_time: Time
-    heat_duty: Power
 
 
 class Grown(NamedTuple):
@@ -538,42 +523,3 @@ class VacuumBatchCrystallizer(CycledVessel, ChargedVessel):
     ) -> dict[str, Any]:
         stirrer = self.stirrer_power(outlets.product, figures.volume)
         return thermal(outlets.heat_duty, feed, outlets.product) | stirrer
-
-
-@equipment(
-    "plug_flow_crystallizer",
-    source="randolph1988, ch. 7; mullin2001, ch. 9",
-    title="Plug flow crystallizer",
-    equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0",
-)
-class PlugFlowCrystallizer(ChargedVessel):
-    """Tubular crystallizer in steady plug flow: every parcel of the feed lives the batch of its residence
-    time.
-
-    The temperature along the tube is given by a program of the time since the inlet, which should end at the
-    residence time. Backmixing spreads the residence times: a series of mixed vessels then stands for the
-    tube.
-    """
-
-    temperature_program: Program
-    volume: VesselVolume
-
-    utilities: ClassVar[Utilities] = HEATED | COOLED
-
-    def _time(self, feed: Stream) -> Any:
-        return safe_divide(self.volume, feed.slurry_volume_flow)
-
-    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
-        return Programmed(self.temperature_program)
-
-    def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
-        return self._cooled(inside, feed)
-
-    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
-        figures = self._figures(inside, outlets.product, feed)
-        return PlugFlowFigures._make((*figures, self._time(feed), outlets.heat_duty))
-
-    def drawn(
-        self, inside: Grown, outlets: BatchOutlets, figures: PlugFlowFigures, feed: Stream
-    ) -> dict[str, Any]:
-        return thermal(outlets.heat_duty, feed, outlets.product)
