@@ -139,6 +139,12 @@ dosed = {
     for power in (0.5, 1, 2, 3)
 }
 
+# ---- tube
+tube = alone("crystallization.baffled_tube_crystallizer").solve().units["baffled_tube_crystallizer"].values
+turbulent = 4000
+long = 45 * turbulent / float(tube.reynolds)  # m, for the same stay
+hasty = c.oscillatory_loss("3 1/s", "10 mm", 45 / float(tube.residence_time), 1200, "45 m", "26 mm")
+
 # ---- wall
 rate = 1000 / 3600
 duty = heat["potassium nitrate"] * rate

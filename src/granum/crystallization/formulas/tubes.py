@@ -41,7 +41,7 @@ class OscillatoryFlow(NamedTuple):
 @formula(
     source="ni1997; stonestreet1999",
     title="Groups of oscillatory flow in a baffled tube",
-    equation=r"\mathrm{Re}_o = \frac{2\pi f x_0 D\rho}{\eta},\quad \mathrm{Re} = \frac{U D \rho}{\eta},\quad "
+    equation=r"\mathrm{Re}_o = \frac{2\pi f x_0 D\rho_f}{\eta},\quad \mathrm{Re} = \frac{U D \rho_f}{\eta},\quad "
     r"\psi = \frac{\mathrm{Re}_o}{\mathrm{Re}},\quad \mathrm{St} = \frac{D}{4\pi x_0}",
     typical={"superficial_velocity": (1e-3, 1e-2), "diameter": (0.01, 0.05)},
 )
@@ -86,7 +86,7 @@ class OscillatoryLoss(NamedTuple):
     source="jealous1955; baird1995",
     title="Power and pressure of oscillatory flow in a baffled tube",
     equation=r"\varepsilon = \frac{1/S^2 - 1}{2 C_d^2\,l}\,\overline{|u|^3},\quad "
-    r"\Delta p = \rho\,\frac{L}{l}\,\frac{1/S^2 - 1}{2 C_d^2}\,\overline{u|u|},\quad "
+    r"\Delta p = \rho_f\,\frac{L}{l}\,\frac{1/S^2 - 1}{2 C_d^2}\,\overline{u|u|},\quad "
     r"u = U + 2\pi f x_0 \sin 2\pi f t",
     typical={
         "superficial_velocity": (1e-3, 1e-2),
