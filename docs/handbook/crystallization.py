@@ -107,6 +107,25 @@ crop = float(grown[2].crystals_per_solvent[-1] - grown[2].crystals_per_solvent[0
 loading = float(c.seed_loading_critical("100 um"))
 seed_kubota = loading * crop
 
+# ---- feedback
+SPARE = {**BATCH, "seed_mass_per_solvent": "0.5 g/kg"}
+ENDS = {"temperature_start": "32 degC", "temperature_end": "28 degC", "cooling_rate_maximum": "20 K/h"}
+kept = {
+    (held, error): c.controlled_batch(
+        **SPARE, **ENDS, supersaturation_kept=f"{held} %", concentration_deviation=f"{error} %"
+    )
+    for held, error in ((0.5, 0), (0.4, 0), (0.4, 0.2))
+}
+cooled_after = {
+    held: float(run.time[np.argmax(run.temperature < 301.15 + 0.04)]) for (held, _e), run in kept.items()
+}
+left = float(kept[0.4, 0].temperature[-1]) - 301.15
+cycled = c.batch(
+    **SPARE,
+    temperature_program=c.CycledCooling("32 degC", "28 degC", "80 min", 3, 1, 0.25),
+    dissolution={"law": "power_law_dissolution", "dissolution_coefficient": "1 mm/s"},
+)
+
 # ---- dosing
 dosed = {
     power: alone(
@@ -119,6 +138,12 @@ dosed = {
     .values
     for power in (0.5, 1, 2, 3)
 }
+
+# ---- tube
+tube = alone("crystallization.baffled_tube_crystallizer").solve().units["baffled_tube_crystallizer"].values
+turbulent = 4000
+long = 45 * turbulent / float(tube.reynolds)  # m, for the same stay
+hasty = c.oscillatory_loss("3 1/s", "10 mm", 45 / float(tube.residence_time), 1200, "45 m", "26 mm")
 
 # ---- wall
 rate = 1000 / 3600
@@ -264,6 +289,15 @@ def figure_cooling():
             color=color,
             dash=dash,
         )
+    run = kept[0.5, 0]
+    add_line(
+        drawing,
+        np.asarray(run.time) / 60,
+        100 * np.asarray(run.relative_supersaturation),
+        said("kept at 0.5 %", "maintenue à 0,5 %"),
+        color=LINES[len(HOW)],
+        dash=DASHES[len(HOW)],
+    )
     return drawing
 
 

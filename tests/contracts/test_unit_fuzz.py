@@ -52,6 +52,8 @@ QUICK = (
     "exchange",
     "hydroxide",
     "uptake",
+    "controlled",
+    "baffled tube",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

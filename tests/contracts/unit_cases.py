@@ -27,13 +27,14 @@ from granum.comminution.population import LargeAndTwoSmall, PlugFlow, TanksInSer
 from granum.crystallization.equipment.batch import (
     BatchCrystallizer,
     JacketedBatchCrystallizer,
-    PlugFlowCrystallizer,
     VacuumBatchCrystallizer,
 )
+from granum.crystallization.equipment.controlled import ControlledBatchCrystallizer
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.equipment.oslo import OsloCrystallizer
+from granum.crystallization.equipment.tubes import BaffledTubeCrystallizer, PlugFlowCrystallizer
 from granum.crystallization.formulas.agglomeration import ConstantKernel, SumKernel
-from granum.crystallization.formulas.growth import PowerLawGrowth
+from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import NaturalCooling, PowerCooling
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
@@ -660,6 +661,16 @@ def crystallizers(classes: int) -> dict[str, Case]:
             )
         ),
         "batch": Cased(lambda f, u: BatchCrystallizer(temperature_program=cooling(f, u), **batch(u))),
+        "controlled": Cased(
+            lambda f, u: ControlledBatchCrystallizer(
+                10.0 ** (-2.5 + 1.5 * u[2]),
+                f["feed"].temperature - 1.0 - 30.0 * u[0],
+                cooling_rate_maximum=(5.0 + 55.0 * u[4]) / 3600.0,
+                concentration_deviation=0.01 * u[5],
+                dissolution=PowerLawDissolution(1e-4),
+                **batch(u),
+            )
+        ),
         "jacketed": Cased(
             lambda f, u: JacketedBatchCrystallizer(
                 jacket_program=NaturalCooling(f["feed"].temperature, 280.0 + 20.0 * u[0], 3600.0),
@@ -671,6 +682,19 @@ def crystallizers(classes: int) -> dict[str, Case]:
         ),
         "vacuum batch": Cased(
             lambda f, u: VacuumBatchCrystallizer(temperature_program=cooling(f, u), **batch(u))
+        ),
+        "baffled tube": Cased(
+            lambda f, u: BaffledTubeCrystallizer(
+                temperature_program=cooling(f, u),
+                diameter=0.01 + 0.1 * u[1],
+                length=10.0 + 90.0 * u[0],
+                oscillation_frequency=0.3 + 3.0 * u[2],
+                oscillation_amplitude=0.002 + 0.03 * u[3],
+                baffle_spacing=0.02 + 0.1 * u[4],
+                baffle_open_area=0.15 + 0.4 * u[5],
+                seed_mass_per_solvent=0.02 * u[3],
+                **laws(u),
+            )
         ),
         "tube": Cased(
             lambda f, u: PlugFlowCrystallizer(

@@ -36,9 +36,9 @@ from granum.core.flags import collect
 from granum.crystallization.equipment.batch import (
     BatchCrystallizer,
     JacketedBatchCrystallizer,
-    PlugFlowCrystallizer,
     VacuumBatchCrystallizer,
 )
+from granum.crystallization.equipment.tubes import PlugFlowCrystallizer
 from granum.crystallization.formulas.balances import crystallizer_balance
 from granum.crystallization.formulas.encrustation import (
     temperature_difference_encrustation,

@@ -40,14 +40,16 @@ from granum.crystallization.equipment.batch import (
     Grown as Grown,
     JacketedBatchCrystallizer as JacketedBatchCrystallizer,
     JacketedBatchFigures as JacketedBatchFigures,
-    PlugFlowCrystallizer as PlugFlowCrystallizer,
-    PlugFlowFigures as PlugFlowFigures,
     VacuumBatchCrystallizer as VacuumBatchCrystallizer,
     VacuumBatchFigures as VacuumBatchFigures,
     VacuumBatchOutlets as VacuumBatchOutlets,
 )
 from granum.crystallization.equipment.boiling import (
     Boiling as Boiling,
+)
+from granum.crystallization.equipment.controlled import (
+    ControlledBatchCrystallizer as ControlledBatchCrystallizer,
+    ControlledBatchFigures as ControlledBatchFigures,
 )
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
@@ -89,6 +91,13 @@ from granum.crystallization.equipment.roles import (
 from granum.crystallization.equipment.stirring import (
     Stirred as Stirred,
     Stirring as Stirring,
+)
+from granum.crystallization.equipment.tubes import (
+    BaffledTubeCrystallizer as BaffledTubeCrystallizer,
+    BaffledTubeFigures as BaffledTubeFigures,
+    PlugFlowCrystallizer as PlugFlowCrystallizer,
+    PlugFlowFigures as PlugFlowFigures,
+    Tube as Tube,
 )
 from granum.crystallization.equipment.two_salts import (
     Parted as Parted,
@@ -259,6 +268,7 @@ from granum.crystallization.formulas.polymorphs import (
 from granum.crystallization.formulas.programs import (
     ConstantFlow as ConstantFlow,
     CoolingShares as CoolingShares,
+    CycledCooling as CycledCooling,
     NaturalCooling as NaturalCooling,
     PowerCooling as PowerCooling,
     Program as Program,
@@ -305,6 +315,12 @@ from granum.crystallization.formulas.supersaturation import (
     supersaturation_ratio_solution_basis as supersaturation_ratio_solution_basis,
     undercooling as undercooling,
 )
+from granum.crystallization.formulas.tubes import (
+    OscillatoryFlow as OscillatoryFlow,
+    OscillatoryLoss as OscillatoryLoss,
+    oscillatory_flow as oscillatory_flow,
+    oscillatory_loss as oscillatory_loss,
+)
 from granum.crystallization.lab_tests.batch_kinetics import (
     BatchKinetics as BatchKinetics,
 )
@@ -350,6 +366,7 @@ from granum.crystallization.population.operations import (
     Jacketed as Jacketed,
     Operation as Operation,
     Programmed as Programmed,
+    Sensor as Sensor,
 )
 from granum.crystallization.population.packets import (
     DispersedMoments as DispersedMoments,
@@ -401,6 +418,9 @@ from granum.crystallization.vessels.dynamic import (
     SteadyFeed as SteadyFeed,
     Surviving as Surviving,
     msmpr_over_time as msmpr_over_time,
+)
+from granum.crystallization.vessels.held import (
+    controlled_batch as controlled_batch,
 )
 from granum.crystallization.vessels.moving import (
     Moving as Moving,

@@ -80,8 +80,10 @@ AdsorptionCoefficient = Annotated[
     Any, Kind("Langmuir coefficient", "m^3/mol", lower=0.0, display=("L/mol", "m^3/mol"))
 ]
 InclusionShare = Annotated[Fraction, Within(0.0, 0.5)]  # of a crystal's volume
+ReadingDeviation = Annotated[Fraction, Within(0.0, 0.2)]
 Solubility = Annotated[Any, Law("solubility_law")]
 Growth = Annotated[Any, Law("growth_rate")]
 Nucleation = Annotated[Any, Law("nucleation_rate")]
+Dissolution = Annotated[Any, Law("dissolution_rate")]
 Program = Annotated[Any, Law("program")]
 Steps = Annotated[int, Within(2, 100_000)]

@@ -322,13 +322,14 @@ class AntisolventBatchCrystallizer(CycledVessel):
     """Batches of a continuous feed into which an antisolvent runs that lowers the solubility; outlets are
     means over the cycle.
 
-    The antisolvent comes by a power of time: 1 is a constant stream; with more it begins slowly, while there
-    is little surface for the solute to grow on. It is mixed in at once, at the temperature of the vessel, and
-    may hold water as the feed may hold some of it. Crystals that come with either are seeds from the start,
-    together with ``seed_mass_per_solvent`` of the solvent charged, which is held back from the product. The
-    crystal must be free of solvent. Nothing dissolves: seeds wait until the solution is saturated, and what
-    has grown stays where too much antisolvent dilutes, which a check tells. Births are counted on a liquor of
-    the density that it has at the end; heat of mixing and excess volume of the two solvents are left out.
+    The antisolvent comes by a power of time: 1 is a constant stream; with more it begins slowly, while
+    there is little surface for the solute to grow on. It is mixed in at once, at the temperature of the
+    vessel, and may hold water as the feed may hold some of it. Crystals that come with either are seeds
+    from the start, together with ``seed_mass_per_solvent`` of the solvent charged, which is held back
+    from the product. The crystal must be free of solvent. Without a law of dissolution, seeds wait until
+    the solution is saturated, and what has grown stays where too much antisolvent dilutes, which a check
+    tells. Births are counted on a liquor of the density that it has at the end; heat of mixing and excess
+    volume of the two solvents are left out.
     """
 
     temperature: Temperature

@@ -1,6 +1,4 @@
-"""Batch crystallizers in a line, and the tube that does to each parcel what a batch does to its charge: mean
-flows over the cycle.
-"""
+"""Batch crystallizers in a line: mean flows over the cycle."""
 
 from __future__ import annotations
 
@@ -49,7 +47,7 @@ from granum.crystallization.equipment.roles import (
 )
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
-from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, VesselVolume
+from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, VesselVolume
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Seeds
@@ -138,19 +136,6 @@ class VacuumBatchFigures(NamedTuple):
     specific_power_input: SpecificPower
 
 
-class PlugFlowFigures(NamedTuple):
-    """Figures of a plug flow crystallizer."""
-
-    crystal_flow: MassFlow
-    yield_fraction: Ratio
-    magma_density: Concentration
-    relative_supersaturation_maximum: Number
-    mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
-    residence_time: Time
-    heat_duty: Power
-
-
 class Grown(NamedTuple):
     """The batch of one second of feed (everything is proportional to it), which species plays which part, and
     the seed held back.
@@ -168,7 +153,9 @@ class Grown(NamedTuple):
 
 
 class BatchVessel(Unit):
-    """What batches share; each says how long it runs and what drives it."""
+    """What batches share; each says how long it runs and what drives it. Without a law of dissolution,
+    crystals keep in an undersaturated solution.
+    """
 
     solubility: Solubility = eqx.field(kw_only=True)
     growth: Growth = eqx.field(kw_only=True)
@@ -177,6 +164,7 @@ class BatchVessel(Unit):
     seed_size: Length = eqx.field(kw_only=True, default=100e-6)
     seed_width: Distance = eqx.field(kw_only=True, default=0.0)
     volume_shape_factor: PositiveNumber = eqx.field(kw_only=True, default=1.0)
+    dissolution: Dissolution | None = eqx.field(kw_only=True, default=None)
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
@@ -195,7 +183,12 @@ class BatchVessel(Unit):
     def _model(self, feed: Stream, found: Roles) -> Model:
         crystal = crystal_of(feed.mixture, found, feed.temperature, self.volume_shape_factor)
         return Model(
-            self.solubility, self.growth, self.nucleation, crystal, SuspensionVolume(feed.liquid_density)
+            self.solubility,
+            self.growth,
+            self.nucleation,
+            crystal,
+            SuspensionVolume(feed.liquid_density),
+            self.dissolution,
         )
 
     def _seeding(self, feed: Stream, found: Roles) -> tuple[Any, Seeds]:
@@ -530,42 +523,3 @@ class VacuumBatchCrystallizer(CycledVessel, ChargedVessel):
     ) -> dict[str, Any]:
         stirrer = self.stirrer_power(outlets.product, figures.volume)
         return thermal(outlets.heat_duty, feed, outlets.product) | stirrer
-
-
-@equipment(
-    "plug_flow_crystallizer",
-    source="randolph1988, ch. 7; mullin2001, ch. 9",
-    title="Plug flow crystallizer",
-    equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0",
-)
-class PlugFlowCrystallizer(ChargedVessel):
-    """Tubular crystallizer in steady plug flow: every parcel of the feed lives the batch of its residence
-    time.
-
-    The temperature along the tube is given by a program of the time since the inlet, which should end at the
-    residence time. Backmixing spreads the residence times: a series of mixed vessels then stands for the
-    tube.
-    """
-
-    temperature_program: Program
-    volume: VesselVolume
-
-    utilities: ClassVar[Utilities] = HEATED | COOLED
-
-    def _time(self, feed: Stream) -> Any:
-        return safe_divide(self.volume, feed.slurry_volume_flow)
-
-    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
-        return Programmed(self.temperature_program)
-
-    def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
-        return self._cooled(inside, feed)
-
-    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
-        figures = self._figures(inside, outlets.product, feed)
-        return PlugFlowFigures._make((*figures, self._time(feed), outlets.heat_duty))
-
-    def drawn(
-        self, inside: Grown, outlets: BatchOutlets, figures: PlugFlowFigures, feed: Stream
-    ) -> dict[str, Any]:
-        return thermal(outlets.heat_duty, feed, outlets.product)

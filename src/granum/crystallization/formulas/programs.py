@@ -9,7 +9,18 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import formula, impossible, law
-from granum.core.kinds import Fraction, MassFlow, Number, PositiveNumber, Ratio, Series, Temperature, Time
+from granum.core.kinds import (
+    Fraction,
+    MassFlow,
+    Number,
+    PositiveNumber,
+    Ratio,
+    Series,
+    Temperature,
+    Time,
+    Within,
+)
+from granum.crystallization.kinds import PositiveTemperatureDifference
 from granum.numerics.smooth import safe_power
 
 OVER = "The program is over by this time."
@@ -124,6 +135,41 @@ class TemperaturePoints(Program):
         return jnp.interp(
             jnp.asarray(time, dtype=float), jnp.asarray(self.time_points), jnp.asarray(self.temperature)
         )
+
+
+@law(
+    "program",
+    name="cycled_cooling",
+    source="braatz2002",
+    title="Cooling with cycles of heating",
+    equation=r"\dot T_{cool} = -\frac{(T_0 - T_f) + n\,\Delta T_h}{(1 - f)\,t_f},"
+    r"\quad \dot T_{heat} = \frac{n\,\Delta T_h}{f\,t_f}",
+)
+class CycledCooling(Program):
+    """Cooling in straight lines that is interrupted by heatings, which dissolve fines: cool, heat, …, cool.
+
+    Each of ``cycle_number`` heatings raises the temperature by the same step; all coolings are equally steep
+    and equally long, and the last one ends at the final temperature. It takes a law of dissolution to act.
+    """
+
+    temperature_start: Temperature
+    temperature_end: Temperature
+    duration: Time
+    cycle_number: PositiveNumber = 3.0
+    temperature_rise_cycle: PositiveTemperatureDifference = 2.0
+    heating_share: Annotated[Fraction, Within(0.01, 0.9)] = 0.25
+
+    def __call__(self, time: Time) -> Temperature:
+        n, rise = self.cycle_number, self.temperature_rise_cycle
+        fall = (self.temperature_start - self.temperature_end + n * rise) / (n + 1.0)
+        cooling = (1.0 - self.heating_share) * self.duration / (n + 1.0)
+        heating = self.heating_share * self.duration / n
+        t = jnp.clip(time, 0.0, self.duration)
+        past = jnp.clip(jnp.floor(t / (cooling + heating)), 0.0, n)
+        since = t - past * (cooling + heating)
+        cooled = jnp.clip(since / cooling, 0.0, 1.0)
+        heated = jnp.clip((since - cooling) / heating, 0.0, 1.0)
+        return self.temperature_start - past * (fall - rise) - cooled * fall + heated * rise
 
 
 @law(

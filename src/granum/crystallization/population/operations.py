@@ -12,9 +12,14 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.numerics.smooth import safe_divide
+
+NEWTON_STEPS = 3  # from the temperature of the step before; what is left is corrected in the next one
+DRAWS = 1024  # readings of a sensor before its errors repeat
 
 
 class Contents(NamedTuple):
@@ -78,6 +83,61 @@ class Programmed(Operation):
 
     def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
         return Contents(self.temperature(end), *self.addition.applied(old, start, end))
+
+
+class Sensor(eqx.Module):
+    """Concentrations as a sensor reads them: a relative error drawn anew at each reading and kept until the
+    next one.
+
+    The draws are the same in every run, so that recipes are compared under equal errors.
+    """
+
+    deviation: Any
+    interval: Any
+
+    def read(self, ratio: Any, time: Any) -> Any:
+        """What is read of a concentration at a time."""
+        draws = np.random.default_rng(1).standard_normal(DRAWS)
+        turn = jnp.floor(time / self.interval).astype(int) % DRAWS
+        return ratio * (1.0 + self.deviation * jnp.asarray(draws)[turn])
+
+
+class Held(Operation):
+    """Temperature by feedback from the concentration, so that the relative supersaturation is kept.
+
+    Parameters
+    ----------
+    model: of the vessel, which tells concentration and solubility. supersaturation: relative, wanted.
+    temperature_start, temperature_end: K, between which the temperature stays. fastest: cooling or heating,
+        K/s. sensor: how the concentration is read; None without error.
+    """
+
+    model: Any
+    supersaturation: Any
+    temperature_start: Any
+    temperature_end: Any
+    fastest: Any
+    sensor: Sensor | None = None
+
+    def start(self, solute: Any, solvent: Any) -> Contents:
+        return Contents(jnp.asarray(self.temperature_start, dtype=float), solute, solvent, jnp.zeros(()))
+
+    def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
+        ratio = self.model.ratio(old, crystals)
+        read = ratio if self.sensor is None else self.sensor.read(ratio, end)
+        wanted = read / (1.0 + self.supersaturation)
+        reach = self.fastest * (end - start)
+        low = jnp.maximum(self.temperature_end, old.temperature - reach)
+        high = jnp.minimum(self.temperature_start, old.temperature + reach)
+
+        def saturated(T: Any) -> Any:
+            return jnp.asarray(self.model.saturated(old._replace(temperature=T)), dtype=float)
+
+        T = old.temperature
+        for _step in range(NEWTON_STEPS):
+            value, slope = jax.jvp(saturated, (T,), (jnp.ones_like(T),))
+            T = jnp.clip(T + safe_divide(wanted - value, slope), low, high)
+        return old._replace(temperature=T)
 
 
 class Heat(eqx.Module):

@@ -31,7 +31,7 @@ from granum.core.kinds import (
 )
 from granum.core.notices import describe
 from granum.crystallization.formulas.nucleation import NoNucleation
-from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, Steps
+from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, Steps
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.grid import Collisions, check_classes
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
@@ -155,7 +155,7 @@ def batch(
     volume_shape_factor: PositiveNumber = 1.0,
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
-    dissolution: Annotated[Any, Law("dissolution_rate")] | None = None,
+    dissolution: Dissolution | None = None,
     evaporation_program: Program | None = None,
     antisolvent_program: Program | None = None,
     growth_dispersion: Ratio = 0.0,
@@ -215,6 +215,11 @@ def batch(
     course, error = simulated(
         model, Programmed(temperature_program, addition), seeds, solute_per_solvent, duration, steps
     )
+    return course_of(course, seeds, solute_per_solvent, solute_fraction_of_crystal, error)
+
+
+def course_of(course: Course, seeds: Seeds, ratio: Any, solute_fraction: Any, error: float) -> BatchCourse:
+    """What is told of a batch of one kg of solvent."""
     return BatchCourse(
         course.time,
         course.temperature,
@@ -227,7 +232,7 @@ def batch(
         mass_mean(course),
         float(median_size(course.final)),
         nuclei_share(course, seeds),
-        yield_of(course, solute_per_solvent, solute_fraction_of_crystal),
+        yield_of(course, ratio, solute_fraction),
         error,
     )
 

@@ -23,7 +23,6 @@ from granum.core.kinds import (
     Density,
     Distance,
     Fraction,
-    Law,
     Length,
     MassRatio,
     PositiveNumber,
@@ -33,15 +32,13 @@ from granum.core.kinds import (
     Time,
 )
 from granum.crystallization.formulas.nucleation import NoNucleation
-from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, Steps
+from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, Steps
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import fitted_weight
 from granum.crystallization.population.packets import Packets, Seeds, mean_power
 from granum.crystallization.vessels.batch import along, check_charge, narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal
 from granum.numerics.quick_roots import nearly_falling_root
-
-Dissolution = Annotated[Any, Law("dissolution_rate")]
 
 
 class PolymorphCourse(NamedTuple):

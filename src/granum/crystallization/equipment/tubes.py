@@ -1,0 +1,188 @@
+"""Tubular crystallizers in a line: each parcel of the feed lives the batch of its residence time."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from typing import Any, ClassVar, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import (
+    Concentration,
+    Distance,
+    Frequency,
+    Length,
+    MassFlow,
+    Number,
+    Power,
+    PressureDrop,
+    Ratio,
+    SpecificPower,
+    Time,
+)
+from granum.core.limits import Limit
+from granum.crystallization.equipment.batch import BatchOutlets, BatchVessel, ChargedVessel, Grown, thermal
+from granum.crystallization.equipment.roles import Roles
+from granum.crystallization.formulas.tubes import OrificeArea, oscillatory_flow, oscillatory_loss
+from granum.crystallization.kinds import Program, VesselVolume
+from granum.crystallization.population.operations import Operation, Programmed
+from granum.numerics.smooth import safe_divide
+from granum.streams.stirrers import slurry_density
+from granum.streams.stream import Stream
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import COOLED, HEATED, STIRRED
+
+
+class PlugFlowFigures(NamedTuple):
+    """Figures of a plug flow crystallizer."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Ratio
+    magma_density: Concentration
+    relative_supersaturation_maximum: Number
+    mean_diameter_mass: Distance
+    nuclei_mass_fraction: Ratio
+    residence_time: Time
+    heat_duty: Power
+
+
+class Tube(ChargedVessel):
+    """A tube along which the temperature follows a program of the time since the inlet."""
+
+    temperature_program: Program
+
+    @abstractmethod
+    def _held(self) -> Any:
+        """Volume of the tube, m³."""
+
+    def _time(self, feed: Stream) -> Any:
+        return safe_divide(self._held(), feed.slurry_volume_flow)
+
+    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
+        return Programmed(self.temperature_program)
+
+    def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
+        return self._cooled(inside, feed)
+
+
+@equipment(
+    "plug_flow_crystallizer",
+    source="randolph1988, ch. 7; mullin2001, ch. 9",
+    title="Plug flow crystallizer",
+    equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0",
+)
+class PlugFlowCrystallizer(Tube):
+    """Tubular crystallizer in steady plug flow: every parcel of the feed lives the batch of its residence
+    time.
+
+    The temperature along the tube is given by a program of the time since the inlet, which should end at the
+    residence time. Backmixing spreads the residence times: a series of mixed vessels then stands for the
+    tube.
+    """
+
+    volume: VesselVolume
+
+    utilities: ClassVar[Utilities] = HEATED | COOLED
+
+    def _held(self) -> Any:
+        return self.volume
+
+    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
+        figures = self._figures(inside, outlets.product, feed)
+        return PlugFlowFigures._make((*figures, self._time(feed), outlets.heat_duty))
+
+    def drawn(
+        self, inside: Grown, outlets: BatchOutlets, figures: PlugFlowFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return thermal(outlets.heat_duty, feed, outlets.product)
+
+
+class BaffledTubeFigures(NamedTuple):
+    """Figures of a baffled tube with oscillation."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Ratio
+    magma_density: Concentration
+    relative_supersaturation_maximum: Number
+    mean_diameter_mass: Distance
+    nuclei_mass_fraction: Ratio
+    residence_time: Time
+    heat_duty: Power
+    reynolds_oscillatory: Ratio
+    reynolds: Ratio
+    velocity_ratio_oscillatory: Ratio
+    strouhal: Ratio
+    specific_power_input: SpecificPower
+    pressure_drop: PressureDrop
+    pressure_amplitude_friction: PressureDrop
+    pressure_amplitude_inertia: PressureDrop
+
+
+@equipment(
+    "baffled_tube_crystallizer",
+    source="ni1997; stonestreet1999; jealous1955; randolph1988, ch. 7",
+    title="Oscillatory baffled tube crystallizer",
+    equation=r"\psi = \frac{2\pi f x_0}{U},\quad "
+    r"\varepsilon = \frac{1/S^2 - 1}{2 C_d^2\,l}\,\overline{|U + 2\pi f x_0 \sin 2\pi f t|^3}",
+)
+class BaffledTubeCrystallizer(Tube):
+    """Plug flow crystallizer whose suspension a piston moves to and fro through orifice baffles, so that a
+    slow flow is mixed across and hardly along the tube.
+
+    The temperature along the tube is given by a program of the time since the inlet. Crystals are those of
+    plug flow, which holds where the oscillation is two to four times as fast as the net flow; the checks tell
+    where it is not, and where it is too weak to fill the cells with vortices. The power is what the baffles
+    take and becomes heat, which is small and left out. The kinetics must be those of this mixing: a baffled
+    tube strikes crystals less than a stirrer.
+    """
+
+    diameter: Length
+    length: Length
+    oscillation_frequency: Frequency
+    oscillation_amplitude: Length
+    baffle_spacing: Length
+    baffle_open_area: OrificeArea = eqx.field(kw_only=True, default=0.25)
+
+    limits: ClassVar[Limits] = BatchVessel.limits | {
+        "vortices": Limit(
+            "oscillatory Reynolds number", 100.0, math.inf, "dimensionless", "ni1997; stonestreet1999"
+        ),
+        "ratio": Limit(
+            "oscillation over net flow, by velocity", 2.0, 4.0, "dimensionless", "stonestreet1999"
+        ),
+    }
+
+    utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
+
+    def _held(self) -> Any:
+        return 0.25 * jnp.pi * self.diameter**2 * self.length
+
+    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> BaffledTubeFigures:
+        product = outlets.product
+        velocity = feed.slurry_volume_flow / (0.25 * jnp.pi * self.diameter**2)
+        density = slurry_density(product)
+        stroke = (self.oscillation_frequency, self.oscillation_amplitude)
+        groups = oscillatory_flow(*stroke, self.diameter, velocity, density, product.liquid_viscosity)
+        loss = oscillatory_loss(
+            *stroke, velocity, density, self.length, self.baffle_spacing, self.baffle_open_area
+        )
+        crystals = self._figures(inside, product, feed)
+        return BaffledTubeFigures._make((*crystals, self._time(feed), outlets.heat_duty, *groups, *loss))
+
+    def measured(
+        self, inside: Grown, outlets: BatchOutlets, figures: BaffledTubeFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {
+            "vortices": figures.reynolds_oscillatory,
+            "ratio": figures.velocity_ratio_oscillatory,
+        }
+
+    def drawn(
+        self, inside: Grown, outlets: BatchOutlets, figures: BaffledTubeFigures, feed: Stream
+    ) -> dict[str, Any]:
+        mass = self._held() * slurry_density(outlets.product)
+        moved = {"electric_power_agitator": figures.specific_power_input * mass}
+        return thermal(outlets.heat_duty, feed, outlets.product) | moved
