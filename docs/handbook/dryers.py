@@ -116,6 +116,14 @@ coiled = bed(6, coils=1e5, gas=7.0)
 ages = mixed.inside.profile
 too_wet = float(np.interp(-0.10, -np.asarray(ages.moisture)[:, 0], np.asarray(ages.place)))
 
+# ---- spouted
+wheat = mixture("wheat", 3e-3, 4.2e-3)
+kernel = d.DiffusionKinetics("7e-11 m^2/s", "1.75 mm", isotherm="wheat")
+sprung = d.SpoutedBedDryer("60 cm", "8 cm", "360 kg", kernel, parallel_number=4.0).operate(
+    feed=wet(wheat, 0.8, 0.25, 15.0), gas=air(wheat, 2.5, 150.0)
+)
+multiple = sprung.figures.superficial_velocity / sprung.figures.minimum_spouting_velocity
+
 # ---- flash
 flour = mixture("starch", *np.geomspace(40e-6, 300e-6, 5))
 

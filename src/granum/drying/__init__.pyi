@@ -130,6 +130,11 @@ from granum.drying.equipment.solar import (
     SolarDryer as SolarDryer,
     SolarFigures as SolarFigures,
 )
+from granum.drying.equipment.spouted_bed import (
+    Spout as Spout,
+    SpoutedBedDryer as SpoutedBedDryer,
+    SpoutedBedFigures as SpoutedBedFigures,
+)
 from granum.drying.equipment.spray import (
     SprayDryer as SprayDryer,
 )
@@ -326,6 +331,9 @@ from granum.drying.formulas.wood import (
     fiber_saturation as fiber_saturation,
     kiln_air as kiln_air,
     wood_diffusivity as wood_diffusivity,
+)
+from granum.drying.gas_solid.beds import (
+    BedDryer as BedDryer,
 )
 from granum.drying.gas_solid.cells import (
     CellRow as CellRow,
