@@ -124,6 +124,21 @@ sprung = d.SpoutedBedDryer("60 cm", "8 cm", "360 kg", kernel, parallel_number=4.
 )
 multiple = sprung.figures.superficial_velocity / sprung.figures.minimum_spouting_velocity
 
+# ---- vibrated
+salt = mixture("sodium chloride", 4e-4, 8e-4)
+
+
+@cache
+def shaken(weir):
+    """10 t/h of salt from 0.03 on a floor of 9 m², 12 t/h of air of 130 °C."""
+    unit = d.VibratedBedDryer(
+        "6 m", "1.5 m", d.SurfaceKinetics(critical_moisture=0.01), weir_height=jnp.asarray(weir), cells=8
+    )
+    return unit.operate(feed=wet(salt, 10.0, 0.03), gas=air(salt, 12.0, 130.0))
+
+
+low, high = shaken(0.03), shaken(0.04)
+
 # ---- flash
 flour = mixture("starch", *np.geomspace(40e-6, 300e-6, 5))
 

@@ -29,6 +29,7 @@ from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
 from granum.drying.equipment.vacuum_shelves import VacuumShelfDryer
+from granum.drying.equipment.vibrated_bed import VibratedBedDryer
 from granum.drying.equipment.web_ovens import ImpingementDryer, RadiantDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
 from granum.drying.equipment.wood_kiln import WoodKiln
@@ -163,6 +164,24 @@ def _spouted(x: Any, product: Any, more: Any) -> Setting:
     return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
 
 
+def _vibrated(x: Any, product: Any, more: Any) -> Setting:
+    d = duty(MIDDLE, x)
+    kinetics = product(x[18], x[19], d.moisture)
+    slender = 2.0 + 8.0 * x[14]
+    width = jnp.sqrt(d.gas.gas_volume_flow / between(x[11], 0.2, 2.0) / slender)
+    unit = VibratedBedDryer(
+        slender * width,
+        width,
+        kinetics,
+        amplitude=between(x[12], 1e-3, 6e-3),
+        vibration_frequency=5.0 + 20.0 * x[13],
+        throw_angle=0.5 + 0.9 * x[15],
+        weir_height=0.25 * x[16],
+        cells=4,
+    )
+    return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
+
+
 def _flash(x: Any, product: Any, more: Any) -> Setting:
     d = duty(FINE, x)
     kinetics = product(x[18], x[19], d.moisture)
@@ -262,6 +281,7 @@ WITH_CELLS: dict[str, Callable[..., Setting]] = {
     "bed without bypass": _bed(1, 0.0),
     "long bed": _bed(4),
     "spouted bed": _spouted,
+    "vibrated bed": _vibrated,
     "flash": _flash,
     "spray": _spray,
     "belt": _belt,

@@ -153,6 +153,10 @@ from granum.drying.equipment.vacuum_shelves import (
     ShelfFigures as ShelfFigures,
     VacuumShelfDryer as VacuumShelfDryer,
 )
+from granum.drying.equipment.vibrated_bed import (
+    VibratedBedDryer as VibratedBedDryer,
+    VibratedBedFigures as VibratedBedFigures,
+)
 from granum.drying.equipment.web_ovens import (
     AbstractWebOven as AbstractWebOven,
     ImpingementDryer as ImpingementDryer,
@@ -324,6 +328,11 @@ from granum.drying.formulas.vials import (
     cake_vapor_resistance as cake_vapor_resistance,
     frozen_height as frozen_height,
     vial_heat_transfer as vial_heat_transfer,
+)
+from granum.drying.formulas.vibration import (
+    Throw as Throw,
+    minimum_mixing_velocity_gupta_mujumdar as minimum_mixing_velocity_gupta_mujumdar,
+    vibration_throw as vibration_throw,
 )
 from granum.drying.formulas.wood import (
     KilnAir as KilnAir,
