@@ -116,6 +116,29 @@ coiled = bed(6, coils=1e5, gas=7.0)
 ages = mixed.inside.profile
 too_wet = float(np.interp(-0.10, -np.asarray(ages.moisture)[:, 0], np.asarray(ages.place)))
 
+# ---- spouted
+wheat = mixture("wheat", 3e-3, 4.2e-3)
+kernel = d.DiffusionKinetics("7e-11 m^2/s", "1.75 mm", isotherm="wheat")
+sprung = d.SpoutedBedDryer("60 cm", "8 cm", "360 kg", kernel, parallel_number=4.0).operate(
+    feed=wet(wheat, 0.8, 0.25, 15.0), gas=air(wheat, 2.5, 150.0)
+)
+multiple = sprung.figures.superficial_velocity / sprung.figures.minimum_spouting_velocity
+
+# ---- vibrated
+salt = mixture("sodium chloride", 4e-4, 8e-4)
+
+
+@cache
+def shaken(weir):
+    """10 t/h of salt from 0.03 on a floor of 9 m², 12 t/h of air of 130 °C."""
+    unit = d.VibratedBedDryer(
+        "6 m", "1.5 m", d.SurfaceKinetics(critical_moisture=0.01), weir_height=jnp.asarray(weir), cells=8
+    )
+    return unit.operate(feed=wet(salt, 10.0, 0.03), gas=air(salt, 12.0, 130.0))
+
+
+low, high = shaken(0.03), shaken(0.04)
+
 # ---- flash
 flour = mixture("starch", *np.geomspace(40e-6, 300e-6, 5))
 

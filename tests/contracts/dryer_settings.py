@@ -24,10 +24,12 @@ from granum.drying.equipment.paddle import PaddleDryer
 from granum.drying.equipment.paper import PaperMachine
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.silo import SiloDryer
+from granum.drying.equipment.spouted_bed import SpoutedBedDryer
 from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
 from granum.drying.equipment.vacuum_shelves import VacuumShelfDryer
+from granum.drying.equipment.vibrated_bed import VibratedBedDryer
 from granum.drying.equipment.web_ovens import ImpingementDryer, RadiantDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
 from granum.drying.equipment.wood_kiln import WoodKiln
@@ -146,6 +148,40 @@ def _bed(cells: int, bypass: Any = None) -> Callable[..., Setting]:
     return build
 
 
+def _spouted(x: Any, product: Any, more: Any) -> Setting:
+    d = duty(GRAIN, x, hottest=473.0)
+    kinetics = product(x[18], x[19], d.moisture)
+    diameter = between(x[11], 0.1, 0.6)
+    vessel = 0.25 * np.pi * diameter**2
+    number = jnp.maximum(d.gas.gas_volume_flow / vessel / (0.5 + 1.5 * x[12]), 1.0)
+    unit = SpoutedBedDryer(
+        diameter,
+        diameter / (5.0 + 5.0 * x[13]),
+        number * vessel * diameter * between(x[14], 0.5, 3.0) * 800.0,
+        kinetics,
+        parallel_number=number,
+    )
+    return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
+
+
+def _vibrated(x: Any, product: Any, more: Any) -> Setting:
+    d = duty(MIDDLE, x)
+    kinetics = product(x[18], x[19], d.moisture)
+    slender = 2.0 + 8.0 * x[14]
+    width = jnp.sqrt(d.gas.gas_volume_flow / between(x[11], 0.2, 2.0) / slender)
+    unit = VibratedBedDryer(
+        slender * width,
+        width,
+        kinetics,
+        amplitude=between(x[12], 1e-3, 6e-3),
+        vibration_frequency=5.0 + 20.0 * x[13],
+        throw_angle=0.5 + 0.9 * x[15],
+        weir_height=0.25 * x[16],
+        cells=4,
+    )
+    return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
+
+
 def _flash(x: Any, product: Any, more: Any) -> Setting:
     d = duty(FINE, x)
     kinetics = product(x[18], x[19], d.moisture)
@@ -244,6 +280,8 @@ WITH_CELLS: dict[str, Callable[..., Setting]] = {
     "bed": _bed(1),
     "bed without bypass": _bed(1, 0.0),
     "long bed": _bed(4),
+    "spouted bed": _spouted,
+    "vibrated bed": _vibrated,
     "flash": _flash,
     "spray": _spray,
     "belt": _belt,
@@ -255,6 +293,7 @@ WITH_CELLS: dict[str, Callable[..., Setting]] = {
 }
 MORE_AIR_DRIES = (
     "bed without bypass",
+    "spouted bed",
     "belt",
     "silo",
     "tunnel counter-current",

@@ -207,6 +207,8 @@ GAS = {
     "drying.convective_dryer": {"temperature_inlet": "120 degC", "moisture_outlet": 0.02},
     "drying.flash_dryer": {"length": 20.0, "diameter": 0.6, "kinetics": SURFACE},
     "drying.fluidized_bed_dryer": {"area": 2.0, "mass": 300.0, "kinetics": SURFACE},
+    "drying.spouted_bed_dryer": {"diameter": 0.5, "inlet_diameter": 0.06, "mass": 60.0, "kinetics": SURFACE},
+    "drying.vibrated_bed_dryer": {"length": 4.0, "width": 1.0, "kinetics": SURFACE, "cells": 3},
     "drying.rotary_dryer": {"length": 10.0, "diameter": 1.5, "kinetics": SURFACE, "cells": 10},
     "drying.silo_dryer": {
         "volume": 20.0,

@@ -130,6 +130,11 @@ from granum.drying.equipment.solar import (
     SolarDryer as SolarDryer,
     SolarFigures as SolarFigures,
 )
+from granum.drying.equipment.spouted_bed import (
+    Spout as Spout,
+    SpoutedBedDryer as SpoutedBedDryer,
+    SpoutedBedFigures as SpoutedBedFigures,
+)
 from granum.drying.equipment.spray import (
     SprayDryer as SprayDryer,
 )
@@ -147,6 +152,10 @@ from granum.drying.equipment.vacuum_shelves import (
     ShelfDried as ShelfDried,
     ShelfFigures as ShelfFigures,
     VacuumShelfDryer as VacuumShelfDryer,
+)
+from granum.drying.equipment.vibrated_bed import (
+    VibratedBedDryer as VibratedBedDryer,
+    VibratedBedFigures as VibratedBedFigures,
 )
 from granum.drying.equipment.web_ovens import (
     AbstractWebOven as AbstractWebOven,
@@ -320,12 +329,20 @@ from granum.drying.formulas.vials import (
     frozen_height as frozen_height,
     vial_heat_transfer as vial_heat_transfer,
 )
+from granum.drying.formulas.vibration import (
+    Throw as Throw,
+    minimum_mixing_velocity_gupta_mujumdar as minimum_mixing_velocity_gupta_mujumdar,
+    vibration_throw as vibration_throw,
+)
 from granum.drying.formulas.wood import (
     KilnAir as KilnAir,
     Schedule as Schedule,
     fiber_saturation as fiber_saturation,
     kiln_air as kiln_air,
     wood_diffusivity as wood_diffusivity,
+)
+from granum.drying.gas_solid.beds import (
+    BedDryer as BedDryer,
 )
 from granum.drying.gas_solid.cells import (
     CellRow as CellRow,

@@ -98,8 +98,11 @@ from granum.fluidization.formulas.regimes import (
     turbulent_onset_velocity_bi_grace as turbulent_onset_velocity_bi_grace,
 )
 from granum.fluidization.formulas.spouting import (
+    bed_depth_cone_cylinder as bed_depth_cone_cylinder,
     minimum_spouting_velocity_mathur_gishler as minimum_spouting_velocity_mathur_gishler,
     spoutable_depth_mcnab_bridgwater as spoutable_depth_mcnab_bridgwater,
+    spouting_pressure_drop_lefroy_davidson as spouting_pressure_drop_lefroy_davidson,
+    starting_pressure_drop_asenjo as starting_pressure_drop_asenjo,
 )
 from granum.fluidization.formulas.two_phase import (
     TwoPhaseBed as TwoPhaseBed,

@@ -5,15 +5,12 @@ through the dense phase.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.errors import InputError
-from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     AreaOrZero,
@@ -35,20 +32,16 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.drying.formulas.beds import bypass_fraction_groenewold_tsotsas
-from granum.drying.gas_solid.cells import Contact, Inlet, Network, Profile
-from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, Through, ready, sized
+from granum.drying.gas_solid.beds import BedDryer
+from granum.drying.gas_solid.dryer import NOTES, Dried, Through, sized
 from granum.drying.gas_solid.kinetics import AbstractKinetics
-from granum.drying.gas_solid.liquor import composition, counted
-from granum.drying.gas_solid.matter import Matter
-from granum.drying.gas_solid.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
 from granum.drying.kinds import LostHeat
 from granum.fluidization.equipment.bed import FluidizedBed
-from granum.fluidization.formulas.heat import heat_transfer_coefficient_zabrodsky, nusselt_number_gunn
+from granum.fluidization.formulas.heat import heat_transfer_coefficient_zabrodsky
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.streams.atmosphere import VENTED
 from granum.streams.cakes import solid_diameter
-from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, heated
@@ -88,7 +81,7 @@ class FluidBedFigures(NamedTuple):
     source="kunii1991, ch. 16; vanecek1966; groenewold1997",
     title="Fluidized-bed dryer",
 )
-class FluidBedDryer(CellDryer):
+class FluidBedDryer(BedDryer):
     """Each particle dries by its own kinetics in the gas of the dense phase; part of the gas passes by in
     bubbles.
 
@@ -116,7 +109,7 @@ class FluidBedDryer(CellDryer):
     pressure_steam: Pressure = 4e5
 
     limits: ClassVar[Limits] = (
-        CellDryer.limits
+        BedDryer.limits
         | {
             "fluidized": Limit(
                 "gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"
@@ -141,10 +134,13 @@ class FluidBedDryer(CellDryer):
         | VENTED
     )
 
-    utilities: ClassVar[Utilities] = CellDryer.utilities | HEATED | AREA
+    utilities: ClassVar[Utilities] = BedDryer.utilities | HEATED | AREA
 
     def extent(self) -> Any:
         return self.area
+
+    def holdup(self, feed: Stream) -> Any:
+        return self.mass
 
     @property
     def lost(self) -> Any:
@@ -174,61 +170,6 @@ class FluidBedDryer(CellDryer):
         return bypass_fraction_groenewold_tsotsas.function(
             gas.gas_volume_flow / self.area, self.minimum_velocity(feed, gas), self.height(feed)
         )
-
-    def _specific(self, feed: Stream, gas: Stream) -> Any:
-        """Heat transfer coefficient times surface per dry solid of each size, W/(K kg), with Gunn's Nusselt
-        number.
-        """
-        sizes = jnp.asarray(feed.mixture.sizes)
-        conductivity = gas.gas_conductivity
-        Re = gas.gas_flow / self.area * sizes / gas.gas_viscosity
-        nusselt = nusselt_number_gunn.function(
-            Re, gas.gas_heat_capacity * gas.gas_viscosity / conductivity, self.void_fraction
-        )
-        return nusselt * conductivity / sizes * 6.0 / (sizes * feed.solid_density)
-
-    def contact(self, feed: Stream, gas: Stream) -> Contact:
-        """Tanks in series; one tank has no ages, for which ``through`` is there."""
-        n, bed = self.cells, self.bed(feed, gas)
-        time, solid = bed.time / n, jnp.broadcast_to(bed.flow * bed.time / n, (n, bed.flow.shape[0]))
-        return Contact(
-            bed.matter,
-            self.kinetics,
-            solid,
-            jnp.full_like(solid, 1.0) / time,
-            bed.gas_flow,
-            Network.cross_current(n),
-            lambda X, Ts, Tg, Y: bed.exchange,
-            heat_loss=self.lost / n,
-        )
-
-    def bed(self, feed: Stream, gas: Stream) -> Bed:
-        """The whole bed, the feed ``counted`` as dry matter and water."""
-        matter = Matter.of(feed, gas)
-        dry = matter.humid.carrier_flow(gas) * (1.0 - self.bypass(feed, gas))
-        time = self.mass / jnp.maximum(feed.solid_flow, 1e-12)
-        return Bed(matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.lost)
-
-    def through(self, feed: Stream, gas: Stream) -> Through:
-        found, share = _fluidized(self, feed, gas), self.bypass(feed, gas)
-        humid = HumidMixture(feed.mixture)
-        vapor = humid.vapor_per_carrier(gas) * humid.carrier_flow(gas)
-        past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
-        found = found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
-        return Through(found, 1.0 * self.mass)
-
-    def dynamic(
-        self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None
-    ) -> tuple[Profile, Any]:
-        """In time, of a bed with tanks in series."""
-        if self.cells == 1:
-            raise InputError(
-                _(
-                    "A well-mixed bed in time would need the ages of its particles: give 'cells' = 2 or "
-                    "more for a bed in time."
-                )
-            )
-        return super().dynamic(feed, gas, step, inlets, start)
 
     @classmethod
     def size(
@@ -298,23 +239,3 @@ class FluidBedDryer(CellDryer):
     ) -> dict[str, Any]:
         coils = heated(self.coil_duty, self.temperature_steam - HEAT_APPROACH)
         return super().drawn(inside, outlets, figures, feed, gas) | coils | {"area_installed": self.area}
-
-
-@ready
-def _fluidized(dryer: FluidBedDryer, feed: Stream, gas: Stream) -> Profile:
-    dry, n = counted(feed), dryer.cells
-    bed = dryer.bed(dry, gas)
-    bed = replace(bed, matter=replace(bed.matter, dissolved=composition(feed)))
-    X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
-    before, fresh = (
-        Solid(X, jnp.full_like(X, 1.0) * feed.temperature),
-        Gas(bed.matter.humid.vapor_per_carrier(gas), jnp.asarray(gas.temperature, dtype=float)),
-    )
-    if n == 1:
-        return steady_bed(bed, before, fresh)
-    return steady_tanks(
-        replace(bed, time=bed.time / n, gas_flow=bed.gas_flow / n, heat_loss=bed.heat_loss / n),
-        before,
-        fresh,
-        n,
-    )

@@ -2,17 +2,36 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import jax.numpy as jnp
 
 from granum.core import formula, impossible, watch
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, PositiveNumber, Speed
+from granum.core.kinds import (
+    Acceleration,
+    Angle,
+    Density,
+    DynamicViscosity,
+    Length,
+    PositiveNumber,
+    PressureDrop,
+    Speed,
+    VoidFraction,
+    Volume,
+)
 from granum.fluidization.formulas.buoyancy import archimedes, excess, larger_root
 from granum.particles.definitions import ARCHIMEDES
 
 WIDE_JET = "A jet must be narrower than its vessel."
+WEIGHT = {
+    "bed_depth": (0.05, 1.0),
+    "particle_density": (900.0, 2700.0),
+    "fluid_density": (0.4, 5.0),
+    "void_fraction": (0.38, 0.5),
+}
+CONE = math.radians(30.0)  # 60° between opposite walls
 VESSEL = {
     "particle_diameter": (1e-3, 6e-3),
     "particle_density": (900.0, 2700.0),
@@ -98,3 +117,90 @@ def spoutable_depth_mcnab_bridgwater(
     watch(reynolds=Re)
     slender = diameter**2 / d * jnp.cbrt(diameter / inlet_diameter) ** 2
     return slender * spouting_ratio**2 * Re**2 / (2.0 * Ar)
+
+
+@formula(
+    source="mathur1974, recalled",
+    equation=(
+        r"L = \frac{d - D_i}{2\tan\gamma},\quad d = \sqrt[3]{D_i^3 + \frac{24\,V\tan\gamma}{\pi}}\ (d < D);"
+        r"\quad L = L_c + \frac{4\,(V - V_c)}{\pi D^2}\ \text{beyond}"
+    ),
+    typical={
+        "volume": (1e-3, 0.2),
+        "diameter": (0.1, 0.6),
+        "inlet_diameter": (0.01, 0.06),
+        "cone_angle": (0.35, 0.8),
+    },
+    output="bed_depth",
+    family="bed_depth",
+    title="Depth of a bed in a cone and the cylinder above it",
+)
+def bed_depth_cone_cylinder(
+    volume: Volume, diameter: Length, inlet_diameter: Length, cone_angle: Angle = CONE
+) -> Length:
+    """Depth above the inlet of so much bed in a vessel whose bottom is a cone, as spouted beds have.
+
+    The correlations of spouted beds count their depth from the inlet.
+
+    >>> round(bed_depth_cone_cylinder("1 L", diameter="152 mm", inlet_diameter="19 mm"), 4)
+    0.1265
+    """
+    _within(inlet_diameter, diameter)
+    slope = jnp.tan(cone_angle)
+    cone = jnp.pi / (24.0 * slope) * (diameter**3 - inlet_diameter**3)
+    wide = jnp.cbrt(inlet_diameter**3 + 24.0 * slope / jnp.pi * jnp.minimum(volume, cone))
+    above = jnp.maximum(volume - cone, 0.0) / (0.25 * jnp.pi * diameter**2)
+    return (wide - inlet_diameter) / (2.0 * slope) + above
+
+
+def _carried(depth: Any, rho_p: Any, rho: Any, void_fraction: Any, gravity: Any) -> Any:
+    """Pressure that carries the whole bed, Pa."""
+    return (1.0 - void_fraction) * excess(rho_p, rho) * gravity * depth
+
+
+@formula(
+    source="lefroy1969, recalled",
+    equation=r"\Delta p_s = \frac{2}{\pi}\,(1 - \varepsilon)(\rho_p - \rho_f)\,g\,L",
+    typical=WEIGHT,
+)
+def spouting_pressure_drop_lefroy_davidson(
+    bed_depth: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    void_fraction: VoidFraction = 0.42,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> PressureDrop:
+    """Pressure drop of a bed with an open spout, by Lefroy and Davidson: two thirds of what would carry all
+    of it.
+
+    The gradient in the annulus rises as a quarter of a sine from the inlet to the surface, where the gas
+    carries the grains. So in deep beds; shallow ones lose less.
+
+    >>> round(spouting_pressure_drop_lefroy_davidson("30 cm", 1300, 1.2, void_fraction=0.42))
+    1411
+    """
+    carried = _carried(bed_depth, particle_density, fluid_density, void_fraction, gravity)
+    return 2.0 / jnp.pi * carried
+
+
+@formula(
+    source="asenjo1977, recalled",
+    equation=r"\Delta p_M = (1 - \varepsilon)(\rho_p - \rho_f)\,g\,L\left(1 + 2.8\,e^{-0.312\,L/D}\right)",
+    typical=WEIGHT | {"diameter": (0.07, 0.6)},
+)
+def starting_pressure_drop_asenjo(
+    bed_depth: Length,
+    diameter: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    void_fraction: VoidFraction = 0.42,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> PressureDrop:
+    """Highest pressure drop of a settled bed before the jet has broken through it, by Asenjo and others: what
+    the fan must give for a moment at the start.
+
+    >>> round(starting_pressure_drop_asenjo("30 cm", "15 cm", 1300, 1.2, void_fraction=0.42))
+    5541
+    """
+    carried = _carried(bed_depth, particle_density, fluid_density, void_fraction, gravity)
+    return carried * (1.0 + 2.8 * jnp.exp(-0.312 * bed_depth / diameter))
