@@ -148,8 +148,9 @@ class TemperaturePoints(Program):
 class CycledCooling(Program):
     """Cooling in straight lines that heating interrupts to dissolve fines: cool, heat, …, cool.
 
-    Each of ``cycle_number`` times of heating raises the temperature by the same step; all coolings are equally steep
-    and equally long, and the last one ends at the final temperature. It takes a law of dissolution to act.
+    Each heating, ``cycle_number`` in all, raises the temperature by the same step; all coolings are equally
+    steep and equally long, and the last one ends at the final temperature. It takes a law of dissolution to
+    act.
     """
 
     temperature_start: Temperature
