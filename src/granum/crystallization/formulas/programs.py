@@ -146,10 +146,11 @@ class TemperaturePoints(Program):
     r"\quad \dot T_{heat} = \frac{n\,\Delta T_h}{f\,t_f}",
 )
 class CycledCooling(Program):
-    """Cooling in straight lines that is interrupted by heatings, which dissolve fines: cool, heat, …, cool.
+    """Cooling in straight lines that heating interrupts to dissolve fines: cool, heat, …, cool.
 
-    Each of ``cycle_number`` heatings raises the temperature by the same step; all coolings are equally steep
-    and equally long, and the last one ends at the final temperature. It takes a law of dissolution to act.
+    Each heating, ``cycle_number`` in all, raises the temperature by the same step; all coolings are equally
+    steep and equally long, and the last one ends at the final temperature. It takes a law of dissolution to
+    act.
     """
 
     temperature_start: Temperature

@@ -41,7 +41,8 @@ class OscillatoryFlow(NamedTuple):
 @formula(
     source="ni1997; stonestreet1999",
     title="Groups of oscillatory flow in a baffled tube",
-    equation=r"\mathrm{Re}_o = \frac{2\pi f x_0 D\rho_f}{\eta},\quad \mathrm{Re} = \frac{U D \rho_f}{\eta},\quad "
+    equation=r"\mathrm{Re}_o = \frac{2\pi f x_0 D\rho_f}{\eta},\quad "
+    r"\mathrm{Re} = \frac{U D \rho_f}{\eta},\quad "
     r"\psi = \frac{\mathrm{Re}_o}{\mathrm{Re}},\quad \mathrm{St} = \frac{D}{4\pi x_0}",
     typical={"superficial_velocity": (1e-3, 1e-2), "diameter": (0.01, 0.05)},
 )
