@@ -75,7 +75,11 @@ def test_what_is_not_thrown_or_too_deep_is_told() -> None:
 
 @pytest.mark.long
 def test_sized_by_its_weir() -> None:
-    unit = VibratedBedDryer.size(0.005, FEED, GAS, 0.45, KINETICS, 6.0, cells=3)
+    unit = VibratedBedDryer.size(5e-4, FEED, GAS, 0.45, KINETICS, 1.0, cells=3)
     made = unit.operate(feed=FEED, gas=GAS)
-    assert float(made.figures.moisture_dry_basis) == pytest.approx(0.005, rel=1e-6)
+    assert float(made.figures.moisture_dry_basis) == pytest.approx(5e-4, rel=1e-6)
     assert float(made.figures.superficial_velocity) == pytest.approx(0.45)
+    assert float(made.figures.bed_depth) == pytest.approx(float(unit.weir_height))
+    slow = VibratedBedDryer.size(0.005, FEED, GAS, 0.45, KINETICS, 6.0, cells=3)
+    assert float(slow.weir_height) < 0.002
+    assert float(slow(FEED, GAS).product.moisture_dry_basis) < 0.005

@@ -47,6 +47,7 @@ from granum.streams.utilities import AREA, DRIVE, driven, ducted
 BOOK = "mujumdar2014, recalled"
 DISTRIBUTOR = 0.3  # of the pressure drop of the bed
 SLOWEST = 5e-3  # m/s, of a bed that is not thrown: loosened by gas it flows to the weir by itself
+LOWEST = 1e-3  # m, of a weir
 STEEPEST = 1.5  # throw number from which on no gas is needed to mix
 
 
@@ -166,11 +167,13 @@ class VibratedBedDryer(BedDryer):
         **more: Any,
     ) -> VibratedBedDryer:
         """The floor of a length that the inlet gas crosses at a velocity, with the weir that keeps the solid
-        as long as a product moisture needs.
+        as long as a product moisture needs: hardly any where the throw is slow enough for that.
         """
         width = float(gas.gas_volume_flow / gas_velocity / length)
-        first = cls(length, width, kinetics, **more)
-        return sized(first, "weir_height", moisture_outlet, 1e-4, 10.0, feed, gas)
+        bare = cls(length, width, kinetics, weir_height=LOWEST, **more)
+        if float(bare(feed, gas).product.moisture_dry_basis) <= float(moisture_outlet):
+            return bare
+        return sized(bare, "weir_height", moisture_outlet, 0.5 * LOWEST, 10.0, feed, gas)
 
     def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
         """Of the gas in the settled bed, its weight at most, and a third of it in the floor."""
@@ -208,7 +211,7 @@ class VibratedBedDryer(BedDryer):
         self,
         inside: Through,
         outlets: Dried,
-        figures: VibratedBedFigures,
+        figures: Any,
         feed: Stream,
         gas: Stream,
         **_others: Any,
@@ -226,7 +229,7 @@ class VibratedBedDryer(BedDryer):
         self,
         inside: Through,
         outlets: Dried,
-        figures: VibratedBedFigures,
+        figures: Any,
         feed: Stream,
         gas: Stream,
         **_others: Any,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
@@ -66,7 +66,7 @@ def vibration_throw(
     over = jnp.where(flies, jnp.minimum(throw, HIGHEST), 1.5)
     steep = jnp.sqrt(over**2 - 1.0)
 
-    def lands(flight: float, steep: float) -> float:
+    def lands(flight: Any, steep: Any) -> Any:
         short = jnp.abs(flight) < SHORT
         safe = jnp.where(short, 1.0, flight)
         wide = (jnp.cos(safe) + 0.5 * safe**2 - 1.0) / (safe - jnp.sin(safe))
