@@ -52,7 +52,6 @@ QUICK = (
     "exchange",
     "hydroxide",
     "uptake",
-    "controlled",
     "baffled tube",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from granum.app.forms import typed
@@ -57,7 +57,12 @@ def described_curve(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     if not found:
         return NO_CURVE
     units = _units(found, given, asked)
-    told = _told(found, units, [(p.name, p) for p in variable(result)], measured(result))
+    told = _told(found, units) | {
+        "against": found.against.name,
+        "output": found.output.name,
+        "inputs": _choices((p.name, p) for p in variable(result)),
+        "outputs": _choices((p.name, p) for p in measured(result)),
+    }
     if asked.get("laws"):
         told["figure"]["data"] = [*_others(thing, given, found, units), *told["figure"]["data"]]
     return told
@@ -67,24 +72,30 @@ def _machine_curve(key: str, asked: Mapping[str, Any]) -> dict[str, Any]:
     """The same of a piece of equipment alone; shaded is where it keeps its practical limits."""
     words = _mapping(asked.get("inputs"))
     machine = Machine(key, words)
+    if not machine.figures:
+        return NO_CURVE
     against, output = machine.chosen(str(asked.get("against", "")), str(asked.get("output", "")))
     found = machine.curve(against, output)
+    choice = {
+        "against": against,
+        "output": output,
+        "inputs": _choices(machine.settings.items()),
+        "outputs": _choices(machine.figures.items()),
+    }
     if found is None:
-        return NO_CURVE
+        note = _("No chart: one calculation takes too long to be repeated here. A study runs many.")
+        return choice | {"figure": None, "note": note}
     units = _typed_unit(words.get(against), found.against), _known(asked.get("unit"), found.output)
-    told = _told(found, units, list(machine.settings.items()), list(machine.figures.values()))
-    return told | {"against": against}
+    return _told(found, units) | choice
 
 
-def _told(
-    found: Curve, units: tuple[str, str], inputs: list[tuple[str, Parameter]], outputs: list[Parameter]
-) -> dict[str, Any]:
+def _choices(named: Iterable[tuple[str, Parameter]]) -> list[dict[str, str]]:
+    return [{"name": name, "label": p.label} for name, p in named]
+
+
+def _told(found: Curve, units: tuple[str, str]) -> dict[str, Any]:
     return {
         "figure": chart(found, units).to_plotly_json(),
-        "against": found.against.name,
-        "output": found.output.name,
-        "inputs": [{"name": name, "label": p.label} for name, p in inputs],
-        "outputs": [{"name": p.name, "label": p.label} for p in outputs],
         "spoken": spoken(found, units),
         "covered": any(True for _span in covered(found)),
     }

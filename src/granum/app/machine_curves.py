@@ -95,7 +95,7 @@ class Machine:
         return trials[0], output if output in self.figures else first
 
     def curve(self, against: str, output: str) -> Curve | None:
-        """A figure over a setting; None where there is not the time for it."""
+        """A figure over a setting; None where there is not the time for some points of it."""
         p, at = self.settings[against], self.at(against)
         began = time.perf_counter()
         self.solved(against, at)
@@ -113,7 +113,4 @@ class Machine:
                 trusted[i] = all(check.ok for check in run.units[self.name].checks) and not run.flags
             if time.perf_counter() - began > 2.0 * PATIENCE:
                 break  # from the present value outward: a narrower chart
-        done = np.flatnonzero(np.isfinite(y))
-        if done.size < FEWEST // 2:
-            return None
         return Curve(p, self.figures[output], at, x, y, trusted, logarithmic)

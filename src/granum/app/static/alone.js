@@ -122,7 +122,7 @@ function Work({ card, given }) {
       ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${form.data.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
       <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />
-      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text}><${Sensitivity} card=${card} values=${values} case=${text} old=${busy || Boolean(problem)} choice=${drawn} setChoice=${setDrawn} none=${t('No chart over a setting: one calculation takes too long to be repeated here. A study runs many.')} /></${Outcome}>`}</div></section>`;
+      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text}><${Sensitivity} card=${card} values=${values} case=${text} old=${busy || Boolean(problem)} choice=${drawn} setChoice=${setDrawn} /></${Outcome}>`}</div></section>`;
 }
 
 /** Streams by the ports of the one machine. */

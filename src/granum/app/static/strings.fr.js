@@ -111,8 +111,6 @@ export const french = {
   'Example values': 'Valeurs d’exemple',
   'Copy link': 'Copier le lien',
   'Copy {name} with all digits': 'Copier {name} avec tous ses chiffres',
-  'No chart over a setting: one calculation takes too long to be repeated here. A study runs many.':
-    'Pas de courbe selon un réglage : un calcul est trop long pour être répété ici. Une étude en fait beaucoup.',
   'Shaded: within its practical limits.': 'Fond teinté : dans ses limites pratiques.',
   'Sensitivity': 'Sensibilité',
   'How it changes': 'Comment il varie',
