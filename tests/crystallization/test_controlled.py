@@ -92,7 +92,7 @@ def test_the_crystals_have_an_exact_slope_with_the_supersaturation_kept():
 
 
 def test_cycles_of_heating_reach_the_end_and_dissolve_what_was_born_last():
-    cycles = CycledCooling(HOT, COLD, DURATION, 3.0, 2.0, 0.25)
+    cycles = CycledCooling(HOT, COLD, DURATION, 3, 2.0, 0.25)
     times = np.linspace(0.0, DURATION, 100001)
     T = np.asarray(cycles(times))
     assert T[0] == pytest.approx(HOT)
@@ -118,6 +118,11 @@ def test_cycles_of_heating_reach_the_end_and_dissolve_what_was_born_last():
     assert started <= float(cycled.moments[-1, 0]) < started + 0.75 * born  # none of the quarter that heats
     total = cycled.solute_per_solvent + cycled.crystals
     assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
+
+
+def test_half_a_cycle_is_refused():
+    with pytest.raises(InputError, match="cycle_number"):
+        gr.crystallization.CycledCooling("32 degC", "28 degC", "80 min", 2.5)
 
 
 def test_what_cooling_cannot_do_is_refused():

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from tests.sharing.streams import air, wet
 
+import granum as gr
 from granum import fluidization as fl
-from granum.core.errors import InputError
+from granum.core.errors import ConvergenceError, InputError
 from granum.drying.equipment.spouted_bed import SpoutedBedDryer
 from granum.drying.gas_solid.kinetics import DiffusionKinetics
 from granum.streams.audit import closure
@@ -82,6 +83,11 @@ def test_what_does_not_spout_is_told() -> None:
     made = bed(inlet=0.16)
     assert not checked(made, "vessel over that of the inlet").ok
     assert not checked(made, "inlet over that of the grains").ok
+
+
+def test_a_jet_wider_than_its_vessel_is_no_dryer() -> None:
+    with pytest.raises(ConvergenceError, match="narrower than its vessel"):
+        gr.alone("drying.spouted_bed_dryer", inlet_diameter="2 m").solve()
 
 
 def test_in_time_it_is_refused() -> None:

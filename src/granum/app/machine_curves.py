@@ -76,9 +76,12 @@ class Machine:
 
     def chosen(self, against: str, output: str) -> tuple[str, str]:
         """What to draw over what: as wanted, else by what it is sized, else the first that matter."""
-        for name, known in ((against, self.settings), (output, self.figures)):
+        for what, name, known in (
+            (_("Input"), against, self.settings),
+            (_("Figure"), output, self.figures),
+        ):
             if name and name not in known:
-                raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=self.key))
+                raise unknown_name(what, name, known, _("for {owner}").format(owner=self.key))
         with contextlib.suppress(GranumError):
             sized = duty(self.key)
             against, output = against or sized.setting, output or sized.figure

@@ -156,7 +156,7 @@ class CycledCooling(Program):
     temperature_start: Temperature
     temperature_end: Temperature
     duration: Time
-    cycle_number: PositiveNumber = 3.0
+    cycle_number: Annotated[int, Within(1, 100)] = 3
     temperature_rise_cycle: PositiveTemperatureDifference = 2.0
     heating_share: Annotated[Fraction, Within(0.01, 0.9)] = 0.25
 

@@ -8,6 +8,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.flags import unsolved
 from granum.core.kinds import (
     Angle,
     Fraction,
@@ -36,6 +37,7 @@ from granum.drying.gas_solid.liquor import counted
 from granum.drying.kinds import LostHeat
 from granum.fluidization.formulas.spouting import (
     CONE,
+    WIDE_JET,
     bed_depth_cone_cylinder,
     minimum_spouting_velocity_mathur_gishler,
     spoutable_depth_mcnab_bridgwater,
@@ -135,6 +137,10 @@ class SpoutedBedDryer(BedDryer):
     }
 
     utilities: ClassVar[Utilities] = BedDryer.utilities | AREA
+
+    def inside(self, feed: Stream, gas: Stream, *more: Any, **others: Any) -> Through:
+        unsolved(self.inlet_diameter < self.diameter, type(self).card, reason=WIDE_JET)
+        return super().inside(feed, gas, *more, **others)
 
     def extent(self) -> Any:
         return self.parallel_number * 0.25 * jnp.pi * self.diameter**2

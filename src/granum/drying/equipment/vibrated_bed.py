@@ -87,12 +87,11 @@ class VibratedBedDryer(BedDryer):
     particle drying by its own kinetics.
 
     Solid advances at ``transport_factor`` times the velocity of a thrown grain (a maker of conveyors reckons
-    with 0.7 to 0.8), and lies as deep as that
-    makes it, but no less than the weir at the end, over which it leaves. It passes ``cells`` tanks in
-    series, each with fresh gas; of gas beyond the still bed's minimum fluidization velocity part may pass by
-    in bubbles. The drive has the power of the landings, without that of its springs; the floor takes a third
-    of the pressure of the bed. ``throw_angle`` is that of the stroke above the floor, ``amplitude`` half the
-    stroke.
+    with 0.7 to 0.8), and lies as deep as that makes it, but no less than the weir at the end, over which it
+    leaves. It passes ``cells`` tanks in series, each with fresh gas; of gas beyond the still bed's minimum
+    fluidization velocity part may pass by in bubbles. The drive has the power of the landings, without that
+    of its springs; the floor takes 0.3 of the pressure of the bed. ``throw_angle`` is that of the stroke
+    above the floor, ``amplitude`` half the stroke.
     """
 
     length: Length
@@ -176,7 +175,7 @@ class VibratedBedDryer(BedDryer):
         return sized(bare, "weir_height", moisture_outlet, 0.5 * LOWEST, 10.0, feed, gas)
 
     def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
-        """Of the gas in the settled bed, its weight at most, and a third of it in the floor."""
+        """Of the gas in the settled bed, its weight at most, and 0.3 of it in the floor."""
         packed = pressure_gradient_ergun.function(
             superficial_velocity=gas.gas_volume_flow / self.extent(),
             particle_diameter=solid_diameter(feed),
