@@ -11,9 +11,15 @@ from pathlib import Path
 # environment is kept.
 os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(Path(tempfile.gettempdir()) / "granum-tests-compiled"))
 os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.3")
-# Most of the time of these tests is compilation, and this halves it; it changes nothing but the speed of
-# large arrays.
-os.environ["XLA_FLAGS"] = f"{os.environ.get('XLA_FLAGS', '')} --xla_cpu_use_fusion_emitters=false".strip()
+# Tests compile much and compute little: these flags make the compiler quick and large arrays slow, and
+# change nothing else.
+os.environ["XLA_FLAGS"] = " ".join(
+    [
+        os.environ.get("XLA_FLAGS", ""),
+        "--xla_cpu_use_fusion_emitters=false",
+        "--xla_backend_optimization_level=0",
+    ]
+).strip()
 
 import pytest
 from hypothesis import settings

@@ -236,9 +236,27 @@ GAS = {
     "drying.well_mixed_dryer": {"residence_time": "15 min", "gas_velocity": 1.0},
 }
 LIQUOR = {
+    "crystallization.baffled_tube_crystallizer": GROWTH
+    | {
+        "temperature_program": COOLING,
+        "diameter": "80 mm",
+        "length": 400.0,
+        "oscillation_frequency": "1 Hz",
+        "oscillation_amplitude": "50 mm",
+        "baffle_spacing": "0.12 m",
+        "seed_mass_per_solvent": 0.01,
+    },
     "crystallization.batch_crystallizer": GROWTH
     | {"temperature_program": COOLING, "duration": "1 hour", "seed_mass_per_solvent": 0.01},
     "crystallization.classified_crystallizer": GROWTH | {"temperature": "30 degC", "volume": 2.0},
+    "crystallization.controlled_batch_crystallizer": GROWTH
+    | {
+        "supersaturation_kept": "1 %",
+        "temperature_end": "30 degC",
+        "cooling_rate_maximum": "60 K/h",
+        "duration": "1 hour",
+        "seed_mass_per_solvent": 0.01,
+    },
     "crystallization.jacketed_batch_crystallizer": GROWTH
     | {
         "jacket_program": COOLING,
