@@ -87,8 +87,9 @@ function colored({ data, layout }) {
   return settings.theme === 'dark' && !printing ? dark(whole) : whole;
 }
 
+const UNSIZED = 450; // px high, where a chart does not say
 let printing = false;
-const PAPER = 640; // px of a chart on A4
+const PAPER = { width: 640, height: 560 }; // px of a chart on A4, at most so high that what was entered stands above it
 const drawn = new Set(); // charts on the page, each with the way to draw it anew
 for (const [event, now] of [
   ['beforeprint', true],
@@ -108,7 +109,7 @@ function untabled({ data, layout }) {
     data: data.filter((trace) => trace.type !== 'table'),
     layout: {
       ...layout,
-      height: (layout.height || 450) - taken,
+      height: (layout.height || UNSIZED) - taken,
       yaxis: { ...layout.yaxis, domain: [0, 1] },
     },
   };
@@ -148,7 +149,7 @@ function foldedNames(data) {
 function fitted({ layout, data }, width) {
   const count = data.filter((trace) => trace.name && trace.showlegend !== false).length;
   const narrow = width < NARROW;
-  const height = (layout.height || 450) - 110;
+  const height = (layout.height || UNSIZED) - 110;
   const right = layout.yaxis?.side === 'right';
   const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
   const own = layout.legend && ['x', 'y', 'orientation'].some((part) => layout.legend[part] !== undefined);
@@ -292,10 +293,12 @@ export function Plot({ figure, label, onPoint, onMark, files = true, tables = tr
     const draw = (anew) => {
       if (!alive || !place.current || !figure || !window.Plotly) return;
       if (anew) window.Plotly.purge(place.current); // a width once given would stay
-      const width = printing ? PAPER : place.current.clientWidth;
+      const width = printing ? PAPER.width : place.current.clientWidth;
       const shown = colored(untabled(figure));
-      const layout = { ...fitted(shown, width), ...(printing && { width: PAPER }) };
-      place.current.style.height = `${layout.height ?? 450}px`; // without it a chart drawn twice falls flat when the window changes
+      const layout = fitted(shown, width);
+      if (printing)
+        Object.assign(layout, PAPER, { height: Math.min(layout.height ?? UNSIZED, PAPER.height) });
+      place.current.style.height = `${layout.height ?? UNSIZED}px`; // without it a chart drawn twice falls flat when the window changes
       window.Plotly.react(place.current, shown.data, layout, {
         responsive: true,
         displaylogo: false,
