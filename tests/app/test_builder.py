@@ -276,7 +276,10 @@ def test_tables_of_a_line_are_taken_as_files(address: str) -> None:
         }
     rows = list(csv.reader(io.StringIO(answers["csv"].text)))
     book = openpyxl.load_workbook(io.BytesIO(answers["xlsx"].content))
-    assert book.sheetnames == ["streams", "results", "specifications", "checks", "utilities"]
+    assert book.sheetnames == ["streams", "sizes", "results", "specifications", "checks", "utilities"]
+    lower, upper, *shares = zip(*list(book["sizes"].values)[1:], strict=True)
+    assert lower[1:] == upper[:-1]
+    assert [sum(of_one) for of_one in shares] == pytest.approx([1.0] * len(shares), rel=1e-9)
     assert [str(cell.value) for cell in book["streams"][1]] == rows[0]
     assert answers["pdf"].status_code == 422
 

@@ -16,11 +16,13 @@ from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.units import from_si
 
+NUMBER_WIDTH = 10  # characters
 _READ = ("as read", "unit as read")
 
 
 def table_rows(run: Any) -> dict[str, list[list[Any]]]:
-    """The tables of a solved line: streams, unit results, what specifications found, checks, utilities.
+    """The tables of a solved line: streams, their sizes, unit results, what specifications found, checks,
+    utilities.
 
     SI units; beside a single value the same in the unit in which it is read.
     """
@@ -36,6 +38,7 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
             "mass_flow [kg/s]",
             "temperature [K]",
             "pressure [Pa]",
+            "median size [m]",
             *(f"{p}: {n} [kg/s]" for p, n in species),
         ]
     ]
@@ -44,9 +47,16 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
             [
                 name,
                 *(s[k]["value"] for k in ("mass_flow", "temperature", "pressure")),
+                s["size"] and s["size"]["median"],
                 *(s[p][n] for p, n in species),
             ]
         )
+    sized = {name: s["size"] for name, s in data["streams"].items() if s["size"] and s["size"]["median"]}
+    sizes: list[list[Any]] = [["from [m]", "to [m]", *(f"{name}: mass fraction" for name in sized)]]
+    if sized:
+        limits = next(iter(sized.values()))["boundaries"]
+        shares = (size["mass_fractions"] for size in sized.values())
+        sizes.extend(map(list, zip(limits[:-1], limits[1:], *shares, strict=True)))
     results: list[list[Any]] = [["unit", "model", "result", "value", "unit of value", *_READ]]
     for unit, report in run.units.items():
         shown = {p.name: _as_read(value, p) for p, value in report.figures()}
@@ -71,6 +81,7 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
             taken.append(["", name, "", total["value"], total["unit"], ""])
     return {
         "streams": streams,
+        "sizes": sizes,
         "results": results,
         "specifications": specified,
         "checks": checks,
@@ -108,6 +119,7 @@ def table_file(run: Any, form: str) -> bytes:
             writer.writerow([])
         return text.getvalue().encode(form_of.encoding)
     from openpyxl import Workbook
+    from openpyxl.utils import get_column_letter
 
     book = Workbook()
     for title, rows in found.items():
@@ -115,6 +127,9 @@ def table_file(run: Any, form: str) -> bytes:
         for row in rows:
             sheet.append(row)
         sheet.freeze_panes = "B2"
+        for number, column in enumerate(zip(*rows, strict=True), 1):
+            words = max(len(cell) for cell in column if isinstance(cell, str))
+            sheet.column_dimensions[get_column_letter(number)].width = max(words, NUMBER_WIDTH) + 2
     del book["Sheet"]  # the empty one a new book starts with
     data = io.BytesIO()
     book.save(data)
