@@ -16,7 +16,7 @@ from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, current_language, typographic
 from granum.core.units import format_number, pretty_unit
-from granum.reports.mathml import mathml
+from granum.reports.mathml import equation_wrapped
 
 
 def domain_labels() -> dict[str, str]:
@@ -168,7 +168,7 @@ def _asked(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]
         "label": card.parameter(asked["output"]).label,
         "quantity": card.parameter(asked["output"]).as_json()
         | {"example": {"number": "", "unit": asked["unit"].replace("%", "percent")}},
-        "equation": mathml(card.equation, display=True) if card.equation else "",
+        "equation": equation_wrapped(card.equation) if card.equation else "",
         "printed": ""
         if printed is None
         else f"{format_number(printed)} {pretty_unit(asked['unit'])}".strip(),

@@ -30,20 +30,20 @@ export function Step({ name, place, seed, step, record }) {
     keep(next);
   };
   const check = async () => {
-    if (!kept.text.trim() || busy) return;
-    const { turn } = latest.current;
+    const { turn, text } = latest.current;
+    if (!text.trim() || busy) return;
     setBusy(true);
     setProblem('');
     try {
       const verdict = await ask(`/api/exercises/${encodeURIComponent(name)}`, {
         step: place,
-        answer: kept.text,
+        answer: text,
         seed,
       });
       if (latest.current.turn === turn)
         hold({ ...latest.current, verdict, language: settings.language });
       if (verdict.verdict !== 'unclear')
-        note(name, place, { right: verdict.verdict === 'right', answer: kept.text, seed });
+        note(name, place, { right: verdict.verdict === 'right', answer: text, seed });
     } catch (fault) {
       setProblem(fault.message);
     }
@@ -62,7 +62,7 @@ export function Step({ name, place, seed, step, record }) {
     }}>${
       chosen
         ? html`<${Choices} step=${step} group=${`choice-${place}`} text=${kept.text} onChange=${change} />`
-        : html`<${Quantity} p=${step.quantity} label=${step.label} text=${kept.text} onChange=${change} />`
+        : html`<${Quantity} p=${step.quantity} label=${step.label} text=${kept.text} onChange=${change} onEnter=${check} />`
     }
       <div class="row"><button class="button main" disabled=${!kept.text.trim() || busy}>${t('Check')}</button>
       ${(step.hint || step.equation) && html`<button type="button" class="button" aria-expanded=${String(hint)} onClick=${() => setHint(!hint)}>${t('Hint')}</button>`}

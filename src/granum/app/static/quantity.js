@@ -123,9 +123,9 @@ function kept(typed, menu) {
 
 /**
  * `onChange` gets the text, and whether it is only what the server understood of the text it had already: that comes late,
- * goes to whoever holds the value then, and to nobody once the field is gone.
+ * goes to whoever holds the value then, and to nobody once the field is gone. `onEnter` is called once what was typed is understood.
  */
-export function Quantity({ p, id, note, text = '', onChange, problem, label = p.label }) {
+export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, label = p.label }) {
   const given = held(text, p);
   const [typed, show] = useState(null);
   const [unit, setUnit] = useState(given.unit);
@@ -202,7 +202,7 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
       onInput=${(e) => type(e.target.value)} onKeyDown=${(e) => {
         if (e.key === 'Enter') {
           e.preventDefault();
-          tracked(settle());
+          tracked(settle().then(() => onEnter?.()));
         }
       }} />
     ${units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>
