@@ -7,6 +7,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+import multiprocessing
+import re
+import sys
+from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -22,6 +26,7 @@ DOCS = Path(__file__).parent
 ROOT = DOCS.parent
 KEPT = ROOT / ".cache" / "handbook"
 PLACES = {"en": "handbook/{}.md", "fr": "fr/manuel/{}.md"}
+FIGURE = re.compile(r"^\[\[figure (\w+)\]\]\n\n\*(.+)\*$", re.MULTILINE)
 LOOKED_AT = ("src/granum/**/*.py", "src/granum/**/*.toml", "src/granum/**/*.csv", "src/granum/**/*.po")
 
 
@@ -44,14 +49,17 @@ def _program() -> bytes:
     return told.digest()
 
 
+def _place(domain: str, what: str) -> Path:
+    """Where something of a chapter is kept, by all it is made from."""
+    calculation = DOCS / "handbook" / f"{domain}.py"
+    own = calculation.read_bytes() if calculation.is_file() else b""
+    name = hashlib.sha256(b"\0".join((_program(), own, what.encode()))).hexdigest()[:24]
+    return KEPT / f"{domain}-{name}.json"
+
+
 def _kept(domain: str, what: str, make: Any) -> Any:
     """What was made before from the same content, or what is made now."""
-    return _kept_as(domain, (DOCS / "handbook" / f"{domain}.py").read_bytes(), what, make)
-
-
-def _kept_as(domain: str, own: bytes, what: str, make: Any) -> Any:
-    name = hashlib.sha256(b"\0".join((_program(), own, what.encode()))).hexdigest()[:24]
-    place = KEPT / f"{domain}-{name}.json"
+    place = _place(domain, what)
     if place.is_file():
         return json.loads(place.read_text(encoding="utf-8"))
     made = make()
@@ -60,12 +68,40 @@ def _kept_as(domain: str, own: bytes, what: str, make: Any) -> Any:
     return made
 
 
+def prepare() -> None:
+    """Make what chapters need on every core, each chapter in a process of its own that gives its memory back.
+    What is kept already is not made again.
+    """
+    left = [domain for domain in domains() if not _place(domain, _stated(domain)).is_file()]
+    left.sort(key=lambda domain: -len(chapter_text(domain, "en")))  # the longest first
+    if str(DOCS) not in sys.path:
+        sys.path.append(str(DOCS))  # where the other processes find this module
+    fresh = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(mp_context=fresh, max_tasks_per_child=1) as pool:
+        for _made in pool.map(make, left):
+            pass
+
+
+def make(domain: str) -> None:
+    """Values and figures of a chapter in every language."""
+    values(domain)
+    for code in PLACES:
+        for found in FIGURE.finditer(chapter_text(domain, code)):
+            figure(domain, found[1], code)
+
+
 def values(domain: str) -> dict[str, float]:
     """Every expression stated in the chapter of a domain, in SI units."""
-    asked = sorted({m[1] for code in PLACES for m in STATED.finditer(chapter_text(domain, code))})
+    asked = _stated(domain)
     return _kept(
-        domain, "\n".join(asked), lambda: {e: float(eval(e, dict(calculated(domain)))) for e in asked}
+        domain, asked, lambda: {e: float(eval(e, dict(calculated(domain)))) for e in asked.splitlines()}
     )
+
+
+def _stated(domain: str) -> str:
+    """The expressions that a chapter states, a line each."""
+    found = (STATED.finditer(chapter_text(domain, code)) for code in PLACES)
+    return "\n".join(sorted({match[1] for matches in found for match in matches}))
 
 
 def figure(domain: str, name: str, code: str) -> str:
@@ -84,7 +120,7 @@ def frames(name: str, code: str) -> str:
         with language(code):
             return json.dumps(moving_figure(name).frames(), separators=(",", ":"), allow_nan=False)
 
-    return _kept_as("moving", b"", f"{name} {code}", drawn)
+    return _kept("moving", f"{name} {code}", drawn)
 
 
 def in_si(number: Number) -> tuple[float, float]:
