@@ -132,8 +132,8 @@ class NeedleBatchFigures(NamedTuple):
 
 
 class GrownNeedles(NamedTuple):
-    """The batch of one second of feed, which species plays which part, the seed held back and how many classes
-    of seeds there are.
+    """The batch of one second of feed, which species plays which part, the seed held back and the number of
+    classes of seeds.
     """
 
     course: NeedleMarch

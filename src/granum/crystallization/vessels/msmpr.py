@@ -249,7 +249,7 @@ def steady_msmpr(
 
 
 class Composition(NamedTuple):
-    """Solute per solvent of a steady mother liquor, whether crystals form at all, and whether it was found."""
+    """Solute per solvent of a steady mother liquor, whether crystals form, and whether it was found."""
 
     ratio: Any
     crystallizes: Any

@@ -373,7 +373,11 @@ def needle_batch(
     ...     solute_per_solvent=0.308,
     ...     solubility={"law": "polynomial_solubility", "coefficients": [0.2087, -9.7629e-5, 9.3027e-5]},
     ...     growth={"law": "power_law_growth", "growth_coefficient": "100.75 um/s", "growth_order": 1.74},
-    ...     growth_width={"law": "power_law_growth", "growth_coefficient": "12.21 um/s", "growth_order": 1.48},
+    ...     growth_width={
+    ...         "law": "power_law_growth",
+    ...         "growth_coefficient": "12.21 um/s",
+    ...         "growth_order": 1.48,
+    ...     },
     ...     temperature_program={
     ...         "law": "power_cooling",
     ...         "temperature_start": 305.15,
@@ -423,8 +427,6 @@ def needle_batch(
         course.rates[:, 1],
         *looks,
         float(nuclei_share(course.final, seeds.number.shape[0])),
-        float(
-            solute_fraction_of_crystal * (course.crystals[-1] - course.crystals[0]) / solute_per_solvent
-        ),
+        float(solute_fraction_of_crystal * (course.crystals[-1] - course.crystals[0]) / solute_per_solvent),
         float(apart) / 3.0,
     )
