@@ -153,7 +153,7 @@ class NeedleBatchCrystallizer(Stirred, Unit):
     """Cooling batch, in cycles of batch and dead time, of crystals whose length and width grow at rates of
     their own; outlets are means over the cycle.
 
-    Crystals are prisms of volume k L W². Sizes, those of the seeds included, are diameters of the sphere of
+    Crystals are prisms of volume k_v L W². Sizes, those of the seeds included, are diameters of the sphere of
     equal volume. Where the mixture has an axis ``aspect_ratio``, crystals of the feed have the ratios it says
     and the product is spread over it; otherwise seeds and crystals of the feed have one ratio. Means and the
     standard deviation of the ratio are by mass. Crystals keep in an undersaturated solution. A share of the
@@ -282,16 +282,17 @@ class NeedleFigures(NamedTuple):
     source="puel2003; randolph1988, ch. 4",
     title="Continuous crystallizer of needles (length and width)",
     equation=r"G_L\,\frac{\partial n}{\partial L} + G_W\,\frac{\partial n}{\partial W} = -\frac{n}{\tau},"
-    r"\quad M_T = 6 k \rho_c B_0\,G_L G_W^2\,\tau^4",
+    r"\quad M_T = 6 k_v \rho_c B_0\,G_L G_W^2\,\tau^4",
 )
 class NeedleCrystallizer(Evaporative):
     """Continuous crystallizer with mixed suspension and mixed product removal of crystals whose length and
     width grow at rates of their own.
 
-    Crystals are prisms of volume k L W²; sizes are diameters of the sphere of equal volume. All crystals born
-    in the vessel have one aspect ratio, that of the two growth rates: the spread is that of crystals which
-    come with the feed, whose ratios an axis ``aspect_ratio`` of the mixture says, or ``seed_aspect_ratio``.
-    Means and the standard deviation of the ratio are by mass. Crystals keep in an undersaturated solution.
+    Crystals are prisms of volume k_v L W²; sizes are diameters of the sphere of equal volume. All crystals
+    born in the vessel have one aspect ratio, that of the two growth rates: the spread is that of crystals
+    which come with the feed, whose ratios an axis ``aspect_ratio`` of the mixture says, or
+    ``seed_aspect_ratio``. Means and the standard deviation of the ratio are by mass. Crystals keep in an
+    undersaturated solution.
     """
 
     growth_width: Growth = eqx.field(kw_only=True)

@@ -10,7 +10,8 @@ from granum.crystallization.kinds import ForwardGrowthRate
 @formula(
     source="puel2003; randolph1988, ch. 4",
     title="Magma density of needles",
-    equation=r"M_T = 6 k \rho_c B_0\,G_L G_W^2\,\tau^4",
+    symbols={"growth_rate": "G_L"},
+    equation=r"M_T = 6 k_v \rho_c B_0\,G_L G_W^2\,\tau^4",
     typical={
         "nucleation_rate": (1e5, 1e7),
         "growth_rate": (2e-8, 1e-7),
@@ -27,7 +28,7 @@ def magma_density_needles(
     crystal_density: Density,
     volume_shape_factor: PositiveNumber = 1.0,
 ) -> Concentration:
-    """Magma density of an ideal continuous crystallizer of prisms of volume k L W², born at size zero.
+    """Magma density of an ideal continuous crystallizer of prisms of volume k_v L W², born at size zero.
 
     Their mean length and width by mass are four times the growth in a residence time, and all have the aspect
     ratio of the two growth rates.

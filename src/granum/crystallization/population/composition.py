@@ -39,32 +39,29 @@ def settled(trial: Trial, ratio: Any, highest: Any, rounds: int = 2) -> tuple[An
     """Composition at the end of a step and the weights of the end with which it was found.
 
     The first round takes the end alone, which never crosses saturation; each further one fits the weights to
-    how stiff the step was, and takes the end alone for a rate that has turned. Derivatives are those of a
-    last Newton step.
+    how stiff the step was, and takes the end alone for a rate that has turned. A last Newton step makes
+    the balance exact.
     """
-    frozen = jax.tree.map(lambda v: lax.stop_gradient(v) if eqx.is_array(v) else v, trial)
-    begin, top = lax.stop_gradient((ratio, highest))
-    before = frozen.rates_before()
+    before = trial.rates_before()
     implicit = [jnp.ones(()) for _rate in before]
 
     def solved(weights: list[Any]) -> Any:
         return nearly_falling_root(
-            lambda c: frozen.left(c, weights) - c, 0.0 * top, top + 0.0, begin, 1e-12 * top
+            lambda c: trial.left(c, weights) - c, 0.0 * highest, highest + 0.0, ratio, 1e-12 * highest
         )
 
     def stiffness(c: Any) -> Any:
-        return -jax.jvp(lambda c: frozen.left(c, implicit), (c,), (jnp.ones(()),))[1]
+        return -jax.jvp(lambda c: trial.left(c, implicit), (c,), (jnp.ones(()),))[1]
 
-    first = stiffness(begin)
+    first = stiffness(ratio)
 
     def attempt(_round: Any, tried: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
         weights = tried[0]
         c = solved(weights)
         usual = fitted_weight(jnp.maximum(first, stiffness(c)))
-        better = [jnp.where(a * b > 0.0, usual, 1.0) for a, b in zip(before, frozen.rates(c), strict=True)]
+        better = [jnp.where(a * b > 0.0, usual, 1.0) for a, b in zip(before, trial.rates(c), strict=True)]
         return better, weights, c
 
-    _next, weights, c = lax.stop_gradient(lax.fori_loop(0, rounds, attempt, (implicit, implicit, begin)))
-    value = trial.left(c, weights) - c
-    slope = jax.jvp(lambda c: frozen.left(c, weights), (c,), (jnp.ones(()),))[1] - 1.0
-    return c - value / lax.stop_gradient(slope), weights
+    _next, weights, c = lax.fori_loop(0, rounds, attempt, (implicit, implicit, ratio))
+    value, slope = jax.jvp(lambda c: trial.left(c, weights) - c, (c,), (jnp.ones(()),))
+    return c - value / slope, weights

@@ -1,6 +1,6 @@
 """Crystals of two sizes in a batch and in a mixed vessel: length and width grow at rates of their own.
 
-A crystal is a prism of volume ``k L W²``. The composition is the one unknown of each time step and of the
+A crystal is a prism of volume ``k_v L W²``. The composition is the one unknown of each time step and of the
 steady state: both growth paths and the births follow from it.
 """
 
@@ -365,9 +365,10 @@ def needle_batch(
     """Concentration and crystals of two sizes over time in a cooling batch: ``growth`` is that of the length,
     ``growth_width`` that of the width.
 
-    Crystals are prisms of volume k L W² (k = 1 for a square section). Seeds are a sieve cut by the diameter
-    of the sphere of equal volume, all of one aspect ratio. Means and the standard deviation of the aspect
-    ratio are by mass. Both rates must not depend on size, and crystals keep in an undersaturated solution.
+    Crystals are prisms of volume k_v L W² (k_v = 1 for a square section). Seeds are a sieve cut by the
+    diameter of the sphere of equal volume, all of one aspect ratio. Means and the standard deviation of the
+    aspect ratio are by mass. Both rates must not depend on size, and crystals keep in an undersaturated
+    solution.
 
     >>> out = needle_batch(
     ...     solute_per_solvent=0.308,
