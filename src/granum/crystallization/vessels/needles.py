@@ -362,9 +362,10 @@ def needle_batch(
     liquid_density: Density = 1000.0,
     steps: Steps = 400,
 ) -> NeedleCourse:
-    """Concentration and crystals of two sizes over time in a cooling batch: ``growth`` is that of the length,
-    ``growth_width`` that of the width.
+    """Concentration and crystals over time in a cooling batch, length and width growing at rates of their
+    own.
 
+    ``growth`` is that of the length, ``growth_width`` that of the width.
     Crystals are prisms of volume k_v L W² (k_v = 1 for a square section). Seeds are a sieve cut by the
     diameter of the sphere of equal volume, all of one aspect ratio. Means and the standard deviation of the
     aspect ratio are by mass. Both rates must not depend on size, and crystals keep in an undersaturated
