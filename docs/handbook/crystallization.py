@@ -145,6 +145,23 @@ turbulent = 4000
 long = 45 * turbulent / float(tube.reynolds)  # m, for the same stay
 hasty = c.oscillatory_loss("3 1/s", "10 mm", 45 / float(tube.residence_time), 1200, "45 m", "26 mm")
 
+# ---- needles
+NEEDLES = (
+    "{{law='power_cooling', temperature_start='50 degC', temperature_end='30 degC', duration='{0}', "
+    "cooling_exponent=1.5}}"
+)
+needles = {
+    time: alone(
+        "crystallization.needle_batch_crystallizer", duration=time, temperature_program=NEEDLES.format(time)
+    )
+    .solve()
+    .units["needle_batch_crystallizer"]
+    .values
+    for time in ("6 hour", "30 min")
+}
+slow, fast = needles["6 hour"], needles["30 min"]
+steady = alone("crystallization.needle_crystallizer").solve().units["needle_crystallizer"].values
+
 # ---- wall
 rate = 1000 / 3600
 duty = heat["potassium nitrate"] * rate

@@ -53,6 +53,7 @@ QUICK = (
     "hydroxide",
     "uptake",
     "baffled tube",
+    "needles",
 )
 CLASSES = (2, 8, 40) if SAMPLES else (8,)
 COUNT = max(SAMPLES, 100)

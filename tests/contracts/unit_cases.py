@@ -31,6 +31,7 @@ from granum.crystallization.equipment.batch import (
 )
 from granum.crystallization.equipment.controlled import ControlledBatchCrystallizer
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
+from granum.crystallization.equipment.needles import NeedleBatchCrystallizer, NeedleCrystallizer
 from granum.crystallization.equipment.oslo import OsloCrystallizer
 from granum.crystallization.equipment.tubes import BaffledTubeCrystallizer, PlugFlowCrystallizer
 from granum.crystallization.formulas.agglomeration import ConstantKernel, SumKernel
@@ -627,6 +628,11 @@ def crystallizers(classes: int) -> dict[str, Case]:
         **laws(u),
     }
     Cased = lambda unit: Case(nitrate, _solution, unit)
+    habit = lambda u: {
+        "growth_width": PowerLawGrowth(10.0 ** (-6.5 + 2.0 * u[3]), 1.0 + u[2]),
+        "seed_aspect_ratio": 0.5 + 8.0 * u[5],
+        "volume_shape_factor": 0.5 + 0.5 * u[0],
+    }
     return {
         "msmpr": Cased(
             lambda f, u: Msmpr(*vessel(f, u), evaporation=0.3 * u[5] * f["feed"].liquid[0], **laws(u))
@@ -661,6 +667,14 @@ def crystallizers(classes: int) -> dict[str, Case]:
             )
         ),
         "batch": Cased(lambda f, u: BatchCrystallizer(temperature_program=cooling(f, u), **batch(u))),
+        "needle batch": Cased(
+            lambda f, u: NeedleBatchCrystallizer(temperature_program=cooling(f, u), **batch(u), **habit(u))
+        ),
+        "needles": Cased(
+            lambda f, u: NeedleCrystallizer(
+                *vessel(f, u), evaporation=0.3 * u[5] * f["feed"].liquid[0], **laws(u), **habit(u)
+            )
+        ),
         "controlled": Cased(
             lambda f, u: ControlledBatchCrystallizer(
                 10.0 ** (-2.5 + 1.5 * u[2]),

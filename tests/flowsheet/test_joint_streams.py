@@ -24,7 +24,7 @@ SURFACE = {"law": "kinetics_surface", "critical_moisture": 0.05}
 FILTER = {"pressure_drop": "1 bar", "cake_resistance": 1e9, "void_fraction": 0.45, "medium_resistance": 1e9}
 BASKET = {"radius_outer": 0.4, "rotation_speed": "1000 rpm", "cake_resistance": 1e8, "void_fraction": 0.45}
 BOWL = {"radius_inner": 0.2, "radius_outer": 0.3, "rotation_speed": "3000 rpm"}
-GROWTH = {
+GROWTH: dict[str, Any] = {
     "solubility": {"law": "library_solubility", "solute": "potassium nitrate"},
     "growth": {"law": "power_law_growth", "growth_coefficient": 1.16e-4, "growth_order": 1.32},
     "nucleation": {"law": "secondary_nucleation", "nucleation_coefficient": 2.2e8, "nucleation_order": 1.78},
@@ -267,6 +267,19 @@ LIQUOR = {
         "seed_mass_per_solvent": 0.01,
     },
     "crystallization.msmpr": GROWTH | {"temperature": "30 degC", "volume": 2.0},
+    "crystallization.needle_batch_crystallizer": GROWTH
+    | {
+        "growth_width": GROWTH["growth"] | {"growth_coefficient": 4e-5},
+        "temperature_program": COOLING,
+        "duration": "1 hour",
+        "seed_mass_per_solvent": 0.01,
+    },
+    "crystallization.needle_crystallizer": GROWTH
+    | {
+        "growth_width": GROWTH["growth"] | {"growth_coefficient": 4e-5},
+        "temperature": "30 degC",
+        "volume": 2.0,
+    },
     "crystallization.oslo_crystallizer": GROWTH
     | {"temperature": "30 degC", "area": 2.0, "height": 1.0, "superficial_velocity": "30 mm/s"},
     "crystallization.plug_flow_crystallizer": GROWTH

@@ -71,9 +71,17 @@ from granum.crystallization.equipment.layer_melt import (
 from granum.crystallization.equipment.msmpr import (
     ClassifiedCrystallizer as ClassifiedCrystallizer,
     CrystallizerFigures as CrystallizerFigures,
+    Evaporative as Evaporative,
     Msmpr as Msmpr,
     VacuumCrystallizer as VacuumCrystallizer,
     VacuumFigures as VacuumFigures,
+)
+from granum.crystallization.equipment.needles import (
+    GrownNeedles as GrownNeedles,
+    NeedleBatchCrystallizer as NeedleBatchCrystallizer,
+    NeedleBatchFigures as NeedleBatchFigures,
+    NeedleCrystallizer as NeedleCrystallizer,
+    NeedleFigures as NeedleFigures,
 )
 from granum.crystallization.equipment.oslo import (
     OsloCrystallizer as OsloCrystallizer,
@@ -248,6 +256,9 @@ from granum.crystallization.formulas.msmpr import (
     size_factor as size_factor,
     undersize_mass_fraction as undersize_mass_fraction,
 )
+from granum.crystallization.formulas.needles import (
+    magma_density_needles as magma_density_needles,
+)
 from granum.crystallization.formulas.nucleation import (
     ClassicalNucleation as ClassicalNucleation,
     NoNucleation as NoNucleation,
@@ -346,6 +357,9 @@ from granum.crystallization.lab_tests.solubility import (
     SolubilityPolynomial as SolubilityPolynomial,
     SolubilityVantHoff as SolubilityVantHoff,
 )
+from granum.crystallization.population.composition import (
+    Trial as Trial,
+)
 from granum.crystallization.population.grid import (
     Classes as Classes,
     Collisions as Collisions,
@@ -356,6 +370,11 @@ from granum.crystallization.population.lagrangian import (
     Model as Model,
     SolventVolume as SolventVolume,
     SuspensionVolume as SuspensionVolume,
+)
+from granum.crystallization.population.needles import (
+    Aged as Aged,
+    Lines as Lines,
+    Segments as Segments,
 )
 from granum.crystallization.population.operations import (
     Addition as Addition,
@@ -427,9 +446,18 @@ from granum.crystallization.vessels.moving import (
 )
 from granum.crystallization.vessels.msmpr import (
     AdditiveVolumes as AdditiveVolumes,
+    Composition as Composition,
     Feed as Feed,
     Removal as Removal,
     SteadyState as SteadyState,
+)
+from granum.crystallization.vessels.needles import (
+    Habit as Habit,
+    NeedleCourse as NeedleCourse,
+    NeedleMarch as NeedleMarch,
+    Needles as Needles,
+    SteadyNeedles as SteadyNeedles,
+    needle_batch as needle_batch,
 )
 from granum.crystallization.vessels.polymorphs import (
     Form as Form,

@@ -28,7 +28,8 @@ class Gathered(NamedTuple):
 
     Parameters
     ----------
-    line, holdups: as given, with one axis ``part`` in place of the further axes.
+    line, holdups: as given, with one axis ``part`` in place of the further axes, which a unit
+        that knows one of them keeps in place.
     parts: the distributions, each adding up to 1, shape (parts, classes of all further axes).
     mixture: that of the line as given.
     """
@@ -49,7 +50,7 @@ class Gathered(NamedTuple):
 
 
 def gather_axes(line: Flowsheet, holdups: Mapping[str, Any] | None = None) -> Gathered:
-    """The line with the further axes of its solids gathered; no unit of it may know one of these axes.
+    """The line with the further axes of its solids gathered, or as it is where a unit knows one of them.
 
     Parameters
     ----------
@@ -61,7 +62,8 @@ def gather_axes(line: Flowsheet, holdups: Mapping[str, Any] | None = None) -> Ga
     classes = prod(shape[2:])
     held = dict(holdups or {})
 
-    if classes == 1:
+    names = {name for name, _edges in mixture.axes}
+    if classes == 1 or any(names & set(unit.known_axes) for unit in line.units.values()):
         return Gathered(line, held, np.eye(1), mixture)
 
     def is_solid(leaf: Any) -> bool:

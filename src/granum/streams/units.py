@@ -91,12 +91,14 @@ class Unit(eqx.Module):
         number for each that applies.
     * ``utilities``: power, heat, cold, materials and area taken from outside, by name (see
         ``granum.core.utilities``); ``drawn(self, inside, outlets, figures, feed, …)`` gives how much of each.
+    * ``known_axes``: further axes of the solids over which the unit itself spreads what it makes.
     * ``Type.size(...)`` (class method) where sizing has a closed statement: the same equations, another
         unknown.
     """
 
     limits: ClassVar[Limits] = {}
     utilities: ClassVar[Utilities] = {}
+    known_axes: ClassVar[tuple[str, ...]] = ()
 
     def inside(self, *args: Any, **inlets: Any) -> Any:
         """What outlets, figures and limits have in common, worked out once; nothing by default."""

@@ -43,6 +43,7 @@ from granum.crystallization.equipment.roles import (
     given_off,
     refuse_boiling,
     roles,
+    suspension_left,
     with_crystals,
 )
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
@@ -215,15 +216,9 @@ class BatchVessel(Unit):
     def _product(self, inside: Grown, feed: Stream) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""
         course, found, _held = inside
-        x, classes = found.solute_fraction, inside.kept(feed.mixture.edges)
-        dissolved = jnp.sum(feed_of(feed, found).crystals) - jnp.sum(classes)
         gone = course.solvent[0] - course.solvent[-1]
-        solute = feed.liquid[found.solute] + x * dissolved
-        solvent = feed.liquid[found.solvent] + (1.0 - x) * dissolved - gone
-        liquid = feed.liquid.at[found.solute].set(solute).at[found.solvent].set(solvent)
-        return feed.replace(
-            solid=with_crystals(feed, found, classes), liquid=liquid, temperature=course.temperature[-1]
-        ), gone
+        solid = with_crystals(feed, found, inside.kept(feed.mixture.edges))
+        return suspension_left(feed, found, solid, gone, course.temperature[-1]), gone
 
     def _figures(self, inside: Grown, product: Stream, feed: Stream) -> tuple[Any, ...]:
         """Crystal flow, yield, magma density, highest supersaturation, D[4,3] and mass share of nuclei."""

@@ -138,17 +138,17 @@ class _Continuous(Stirred, Unit):
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
-    def inside(self, feed: Stream) -> tuple[SteadyState, Roles]:
-        """The steady suspension, and which species plays which part."""
-        found = roles(feed.mixture, self.solid, self.solvent)
-        T = self.held_at(feed.mixture)
-        densities = feed.mixture.densities("liquids", T)
+    def _liquor(self, feed: Stream, found: Roles) -> AdditiveVolumes:
+        """Volume flow of the mother liquor."""
+        densities = feed.mixture.densities("liquids", self.held_at(feed.mixture))
         volumes = feed.liquid / densities
         others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
-        evaporation, per_crystal = self._evaporation(feed, found)
-        # once more where its flags are heard: inside what is compiled they are lost
-        self.solubility(T)
-        state = steady_msmpr(
+        return AdditiveVolumes(densities[found.solute], densities[found.solvent], others)
+
+    def _steady(self, feed: Stream, found: Roles, evaporation: Any, per_crystal: Any) -> Any:
+        """The steady suspension."""
+        T = self.held_at(feed.mixture)
+        return steady_msmpr(
             feed_of(feed, found),
             T,
             self.volume,
@@ -156,13 +156,24 @@ class _Continuous(Stirred, Unit):
             self.growth,
             self.nucleation,
             crystal_of(feed.mixture, found, T, self.volume_shape_factor),
-            AdditiveVolumes(densities[found.solute], densities[found.solvent], others),
+            self._liquor(feed, found),
             feed.mixture.edges,
             evaporation,
             per_crystal,
             self.nucleus_size,
             self._removal(),
         )
+
+    def _solid(self, feed: Stream, found: Roles, state: Any) -> Any:
+        """Solid of the product by species and class."""
+        return with_crystals(feed, found, state.crystals)
+
+    def inside(self, feed: Stream) -> tuple[Any, Roles]:
+        """The steady suspension, and which species plays which part."""
+        found = roles(feed.mixture, self.solid, self.solvent)
+        # once more where its flags are heard: inside what is compiled they are lost
+        self.solubility(self.held_at(feed.mixture))
+        state = self._steady(feed, found, *self._evaporation(feed, found))
         unsolved(state.converged, type(self).card, reason=_UNSOLVED)
         return state, found
 
@@ -171,7 +182,7 @@ class _Continuous(Stirred, Unit):
         T = self.held_at(feed.mixture)
         liquid = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
         product = feed.replace(
-            solid=with_crystals(feed, found, state.crystals),
+            solid=self._solid(feed, found, state),
             liquid=liquid,
             gas=0.0 * feed.gas,
             temperature=jnp.asarray(T, dtype=float),
@@ -245,15 +256,10 @@ class _Continuous(Stirred, Unit):
         """Solvent evaporated, kg/s, and what is added to it per kg of crystals formed."""
 
 
-class _Evaporating(_Continuous):
+class Evaporative(_Continuous):
     """A vessel from which a given flow of solvent evaporates."""
 
     evaporation: MassFlow = eqx.field(kw_only=True, default=0.0)
-
-    def figures(
-        self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
-    ) -> CrystallizerFigures:
-        return self._common(inside, outlets, feed)
 
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
         if found.vapor is not None:
@@ -261,6 +267,15 @@ class _Evaporating(_Continuous):
         if not is_tracer(self.evaporation) and float(self.evaporation) != 0.0:
             raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
         return jnp.where(jnp.asarray(self.evaporation) == 0.0, 0.0, jnp.nan), 0.0
+
+
+class _Evaporating(Evaporative):
+    """One whose crystals have one size."""
+
+    def figures(
+        self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
+    ) -> CrystallizerFigures:
+        return self._common(inside, outlets, feed)
 
 
 @equipment(

@@ -128,3 +128,15 @@ def with_crystals(stream: Stream, found: Roles, crystals: Any) -> Any:
     share = jnp.where(amount > 0, whole / jnp.where(amount > 0, amount, 1.0), fresh)
     own = jnp.where(total > 0, solid / jnp.where(total > 0, total, 1.0), share)
     return stream.solid.at[found.solid].set(own * crystals.reshape((-1,) + (1,) * len(inner)))
+
+
+def suspension_left(feed: Stream, found: Roles, solid: Any, evaporated: Any, temperature: Any) -> Stream:
+    """The feed with new crystals, whose solute and solvent the liquor gains or loses; what has evaporated
+    (kg/s) leaves it too.
+    """
+    dissolved = jnp.sum(feed.solid[found.solid]) - jnp.sum(solid[found.solid])
+    x = found.solute_fraction
+    solute = feed.liquid[found.solute] + x * dissolved
+    solvent = feed.liquid[found.solvent] + (1.0 - x) * dissolved - evaporated
+    liquid = feed.liquid.at[found.solute].set(solute).at[found.solvent].set(solvent)
+    return feed.replace(solid=solid, liquid=liquid, temperature=jnp.asarray(temperature, dtype=float))

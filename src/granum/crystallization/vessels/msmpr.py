@@ -208,23 +208,11 @@ def steady_msmpr(
             + _dot(start_numbers, cubes(start_sizes, length[..., None]))
         )
 
-    def excess(c: Any) -> Any:
-        return jnp.log(jnp.maximum(grown(c), 1e-300)) - jnp.log(jnp.maximum(state(c)[0], 1e-300))
-
-    supersaturated = highest > saturated
-    low, high = lax.stop_gradient((saturated, highest))
-    trials = low + (high - low) * _trial_points()
-    values = jax.vmap(excess)(trials)
-    rises = (values[:-1] < 0) & (values[1:] >= 0)
-    first = jnp.argmax(rises)
-    some = jnp.any(rises) & supersaturated
-    below, above = jnp.where(some, trials[first], low), jnp.where(some, trials[first + 1], high)
-    root = find_root(
-        lambda c: jnp.where(some, excess(c), c - highest), below, jnp.where(some, above, high * (1 + 1e-9))
-    )
+    found = steady_composition(grown, lambda c: state(c)[0], saturated, highest)
+    some = found.crystallizes
     dissolved_down = jnp.clip(crystals_at(all_solute, all_solvent, saturated, x, bound), 0.0, total)
-    rest = jnp.where(supersaturated, total, dissolved_down)
-    c = jnp.where(some, root.value, ratio_left(all_solute, all_solvent, rest, x, bound))
+    rest = jnp.where(highest > saturated, total, dissolved_down)
+    c = jnp.where(some, found.ratio, ratio_left(all_solute, all_solvent, rest, x, bound))
     product, flow, G, B, magma = state(c)
     product = jnp.where(some, product, rest)
     length = G * volume / flow
@@ -255,9 +243,41 @@ def steady_msmpr(
         flow,
         jnp.where(some, magma, product / flow),
         length,
-        ~jnp.any(rises) & supersaturated & (total == 0),
-        jnp.where(some, root.converged, True),
+        ~some & (highest > saturated) & (total == 0),
+        found.converged,
     )
+
+
+class Composition(NamedTuple):
+    """Solute per solvent of a steady mother liquor, whether crystals form, and whether it was found."""
+
+    ratio: Any
+    crystallizes: Any
+    converged: Any
+
+
+def steady_composition(
+    grown: Callable[[Any], Any], product: Callable[[Any], Any], saturated: Any, highest: Any
+) -> Composition:
+    """The first composition above saturation at which the crystals that the kinetics make (kg/s) are those
+    that the solute balance leaves: the steady state with most crystals.
+    """
+
+    def excess(c: Any) -> Any:
+        return jnp.log(jnp.maximum(grown(c), 1e-300)) - jnp.log(jnp.maximum(product(c), 1e-300))
+
+    supersaturated = highest > saturated
+    low, high = lax.stop_gradient((saturated, highest))
+    trials = low + (high - low) * _trial_points()
+    values = jax.vmap(excess)(trials)
+    rises = (values[:-1] < 0) & (values[1:] >= 0)
+    first = jnp.argmax(rises)
+    some = jnp.any(rises) & supersaturated
+    below, above = jnp.where(some, trials[first], low), jnp.where(some, trials[first + 1], high)
+    root = find_root(
+        lambda c: jnp.where(some, excess(c), c - highest), below, jnp.where(some, above, high * (1 + 1e-9))
+    )
+    return Composition(root.value, some, jnp.where(some, root.converged, True))
 
 
 def _trial_points() -> Any:

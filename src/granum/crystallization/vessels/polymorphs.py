@@ -34,11 +34,10 @@ from granum.core.kinds import (
 from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, Steps
 from granum.crystallization.population.compiled import compiled
-from granum.crystallization.population.lagrangian import fitted_weight
+from granum.crystallization.population.composition import Trial, settled
 from granum.crystallization.population.packets import Packets, Seeds, mean_power
 from granum.crystallization.vessels.batch import along, check_charge, narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal
-from granum.numerics.quick_roots import nearly_falling_root
 
 
 class PolymorphCourse(NamedTuple):
@@ -71,6 +70,56 @@ class Form(eqx.Module):
         """Growth rate, negative for dissolution."""
         grows = self.growth(ratio, saturated, temperature)
         return grows - self.dissolution(ratio, saturated, temperature)
+
+
+class _Both(eqx.Module):
+    forms: tuple[Form, Form]
+    liquid_density: Any
+    cross_nucleation: Any
+
+    def kinetics(self, c: Any, T: Any, mass: list[Any]) -> tuple[list[Any], list[Any]]:
+        """Growth rates and births of both forms."""
+        forms = self.forms
+        volume = (1.0 + c) / self.liquid_density + sum(
+            m / f.crystal.density for m, f in zip(mass, forms, strict=True)
+        )
+        magma = (mass[0] / volume, (mass[1] + self.cross_nucleation * mass[0]) / volume)
+        saturated = [f.solubility(T) for f in forms]
+        rates = [f.rate(c, s, T) for f, s in zip(forms, saturated, strict=True)]
+        born = [volume * f.nucleation(c, s, T, m) for f, s, m in zip(forms, saturated, magma, strict=True)]
+        return rates, born
+
+
+class _Step(Trial):
+    both: _Both
+    crystals: tuple[Packets, Packets]
+    mass: list[Any]
+    before: list[Any]
+    births: list[Any]
+    temperature: Any
+    span: Any
+    total: Any
+
+    def rates_before(self) -> list[Any]:
+        return self.before
+
+    def rates(self, ratio: Any) -> list[Any]:
+        return self.both.kinetics(ratio, self.temperature, self.mass)[0]
+
+    def after(self, ratio: Any, weights: list[Any]) -> tuple[list[Any], list[Any]]:
+        """Growth paths and births of both forms."""
+        later, more = self.both.kinetics(ratio, self.temperature, self.mass)
+        paths = [
+            self.span * ((1.0 - w) * a + w * b) for w, a, b in zip(weights, self.before, later, strict=True)
+        ]
+        return paths, [0.5 * self.span * (a + b) for a, b in zip(self.births, more, strict=True)]
+
+    def left(self, ratio: Any, weights: list[Any]) -> Any:
+        held = sum(
+            form.crystal.mass_per_cube * (p.cubes_after(d) + n * mean_power(0.0, jnp.maximum(d, 0.0), 3))
+            for form, p, d, n in zip(self.both.forms, self.crystals, *self.after(ratio, weights), strict=True)
+        )
+        return self.total - held
 
 
 class _State(NamedTuple):
@@ -113,17 +162,6 @@ def transform(
     def masses(crystals: tuple[Packets, Packets]) -> list[Any]:
         return [c * p.moments()[3] for c, p in zip(cubes, crystals, strict=True)]
 
-    def kinetics(c: Any, T: Any, mass: list[Any]) -> tuple[list[Any], list[Any]]:
-        """Growth rates and births of both forms."""
-        volume = (1.0 + c) / liquid_density + sum(
-            m / f.crystal.density for m, f in zip(mass, forms, strict=True)
-        )
-        magma = (mass[0] / volume, (mass[1] + cross_nucleation * mass[0]) / volume)
-        saturated = [f.solubility(T) for f in forms]
-        rates = [f.rate(c, s, T) for f, s in zip(forms, saturated, strict=True)]
-        born = [volume * f.nucleation(c, s, T, m) for f, s, m in zip(forms, saturated, magma, strict=True)]
-        return rates, born
-
     def row(state: _State, T: Any) -> _Row:
         moments = [p.moments() for p in state.crystals]
         return _Row(
@@ -136,43 +174,12 @@ def transform(
 
     def advance(state: _State, given: tuple[Any, Any, Any]) -> tuple[_State, _Row]:
         start, end, index = given
-        span, T, mass = end - start, program(end), masses(state.crystals)
-        rates, births = kinetics(state.ratio, program(start), mass)
-
-        def after(c: Any, weights: list[Any]) -> tuple[list[Any], list[Any], Any]:
-            later, more = kinetics(c, T, mass)
-            paths = [span * ((1.0 - w) * a + w * b) for w, a, b in zip(weights, rates, later, strict=True)]
-            born = [0.5 * span * (a + b) for a, b in zip(births, more, strict=True)]
-            held = sum(
-                cube * (p.cubes_after(d) + n * mean_power(0.0, jnp.maximum(d, 0.0), 3))
-                for cube, p, d, n in zip(cubes, state.crystals, paths, born, strict=True)
-            )
-            return paths, born, total - held
-
-        implicit = [jnp.ones(()), jnp.ones(())]
-
-        def solved(weights: list[Any]) -> Any:
-            return nearly_falling_root(
-                lambda c: after(c, weights)[2] - c, 0.0 * total, total + 0.0, state.ratio, 1e-12 * total
-            )
-
-        def stiffness(c: Any) -> Any:
-            return -jax.jvp(lambda c: after(c, implicit)[2], (c,), (jnp.ones(()),))[1]
-
-        before = stiffness(state.ratio)
-
-        def attempt(_round: Any, tried: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
-            """With given weights; the composition found says how stiff the step is and which form turns."""
-            weights = tried[0]
-            c = solved(weights)
-            usual = fitted_weight(jnp.maximum(before, stiffness(c)))
-            turned, _more = kinetics(c, T, mass)
-            better = [jnp.where(a * b > 0.0, usual, 1.0) for a, b in zip(rates, turned, strict=True)]
-            return better, weights, c
-
-        # the end of the step alone first
-        _next, weights, c = lax.fori_loop(0, 2, attempt, (implicit, implicit, state.ratio))
-        paths, born, _rest = after(c, weights)
+        T, mass = program(end), masses(state.crystals)
+        both = _Both(forms, liquid_density, cross_nucleation)
+        rates, births = both.kinetics(state.ratio, program(start), mass)
+        step = _Step(both, state.crystals, mass, rates, births, T, end - start, total)
+        c, weights = settled(step, state.ratio, total)
+        paths, born = step.after(c, weights)
         grown = tuple(
             p.grown(d, n, 0.0, k + index)
             for p, d, n, k in zip(state.crystals, paths, born, kept, strict=True)
