@@ -109,6 +109,13 @@ sand_test = {"concentration_inlet": "10 mg/L", "superficial_velocity": "5 m/hour
 number_little = float(f.filterability_number("0.2 m", "1 mg/L", **sand_test))
 number_much = float(f.filterability_number("0.5 m", "0.3 mg/L", **sand_test))
 
+dips = f.CakeFormationTest.read(BENCH / "cake_formation_test_made.csv").fit()
+centimeter = dips["standard_cake_formation_time"]
+like_medium = dips["cake_thickness_medium"].value
+centimeter_leaf = f.standard_cake_formation_time(
+    "1e10 m/kg", "100 kg/m3", void_fraction=0.5, solid_density=3000, dynamic_viscosity="1 cP"
+)
+
 # ---- cargo
 compacted = f.ProctorFagerbergTest.read(
     BENCH / "proctor_fagerberg_test_made.csv", solid_density="4.2 g/cm3"

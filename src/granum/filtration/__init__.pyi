@@ -100,6 +100,9 @@ from granum.filtration.formulas.blocking import (
     dirt_held_blocking as dirt_held_blocking,
     filtrate_volume_blocking as filtrate_volume_blocking,
 )
+from granum.filtration.formulas.cake_growth import (
+    standard_cake_formation_time as standard_cake_formation_time,
+)
 from granum.filtration.formulas.compressible import (
     CakeProfile as CakeProfile,
     cake_profile as cake_profile,
@@ -244,6 +247,9 @@ from granum.filtration.lab_tests.adsorption import (
 from granum.filtration.lab_tests.blocking import (
     BlockingTest as BlockingTest,
 )
+from granum.filtration.lab_tests.cake_formation import (
+    CakeFormationTest as CakeFormationTest,
+)
 from granum.filtration.lab_tests.cake_tests import (
     CompressionCell as CompressionCell,
     DeliquoringCurve as DeliquoringCurve,
@@ -286,5 +292,6 @@ from granum.filtration.selection import (
     Separators as Separators,
     air_filter_class as air_filter_class,
     air_filter_class_particulate as air_filter_class_particulate,
+    filtering_class as filtering_class,
     separator_choice as separator_choice,
 )
