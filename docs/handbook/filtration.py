@@ -154,6 +154,24 @@ reached = [
     for z in (0.01, 0.02)
 ]
 
+# ---- thickeners
+pulsed = gr.alone("filtration.thickening_filter").solve()
+pulsed_area = pulsed.figure("thickening_filter.area_required")
+pulsed_thick = 1e3 * pulsed.figure("thickening_filter.cake_thickness")
+hourly = gr.alone("filtration.thickening_filter", filtration_time="1 hour").solve()
+hourly_area = hourly.figure("thickening_filter.area_required")
+STIRRED = {
+    "vessel_contents": "thickened",
+    "mass_transfer_coefficient": "2e-5 m/s",
+    "filtration_time": "1 day",
+}
+sheared_areas = [
+    gr.alone("filtration.thickening_filter", **STIRRED, solids_volume_fraction_thickened=to)
+    .solve()
+    .figure("thickening_filter.area_required")
+    for to in (0.15, 0.3)
+]
+
 # ---- cartridges
 cartridges = gr.alone("filtration.cartridge_filter").solve()
 lasting = cartridges.figure("cartridge_filter.run_time")

@@ -87,6 +87,12 @@ from granum.filtration.equipment.screw_press import (
     ScrewFigures as ScrewFigures,
     ScrewPress as ScrewPress,
 )
+from granum.filtration.equipment.thickening import (
+    Pulsed as Pulsed,
+    Thickened as Thickened,
+    ThickeningFigures as ThickeningFigures,
+    ThickeningFilter as ThickeningFilter,
+)
 from granum.filtration.formulas.adsorption import (
     adsorption_rate_lodewyckx as adsorption_rate_lodewyckx,
     breakthrough_fraction_bohart_adams as breakthrough_fraction_bohart_adams,
