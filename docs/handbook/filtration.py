@@ -162,14 +162,14 @@ hourly = gr.alone("filtration.thickening_filter", filtration_time="1 hour").solv
 hourly_area = hourly.figure("thickening_filter.area_required")
 STIRRED = {
     "vessel_contents": "thickened",
-    "mass_transfer_coefficient": "2e-5 m/s",
+    "mass_transfer_coefficient": "2e-4 m/s",
     "filtration_time": "1 day",
 }
 sheared_areas = [
     gr.alone("filtration.thickening_filter", **STIRRED, solids_volume_fraction_thickened=to)
     .solve()
     .figure("thickening_filter.area_required")
-    for to in (0.15, 0.3)
+    for to in (0.15, 0.25)
 ]
 
 # ---- cartridges
