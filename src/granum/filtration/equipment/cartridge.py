@@ -148,7 +148,7 @@ class CartridgeFilter(Unit):
         return Held(flow, clean, clean * grown, share, dirt, life)
 
     def outlets(self, inside: Held, feed: Stream) -> CartridgeOutlets:
-        held = self.cartridge_lengths * self.liquid_per_length / inside.life
+        held = self.cartridge_lengths * self.liquid_per_length / jnp.maximum(inside.life, LEAST)
         liquid = jnp.minimum(safe_divide(held, feed.liquid_volume_flow, 0.0), 1.0)
         dirt = feed.part(solid=inside.share, liquid=liquid)
         return CartridgeOutlets(
