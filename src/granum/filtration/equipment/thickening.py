@@ -97,9 +97,9 @@ class Pulsed(NamedTuple):
 )
 class ThickeningFilter(Unit):
     """Candles, tubes, leaves or turning discs in a vessel, whose cake is thrown back into the slurry: pulses
-    of filtrate every ``filtration_time``, shear that keeps it thin (delayed cake), or both. Filtrate leaves
-    as much as thickens the slurry to the given volume fraction.
+    of filtrate every ``filtration_time``, shear that keeps it thin (delayed cake), or both.
 
+    Filtrate leaves as much as thickens the slurry to the given volume fraction.
     Between pulses the cake grows by Ruth; under shear only until its flux has fallen to what shear carries
     away, with ``mass_transfer_coefficient`` as in films of membranes: its value comes from a trial, which
     finds that flux in proportion to the logarithm of the solids. Without shear give none. Clods of a pulsed
