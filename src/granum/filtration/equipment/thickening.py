@@ -104,7 +104,7 @@ class ThickeningFilter(Unit):
     away, with ``mass_transfer_coefficient`` as in films of membranes: its value comes from a trial, which
     finds that flux in proportion to the logarithm of the solids. Without shear give none. Clods of a pulsed
     cake sink, and the elements stand in slurry like the feed; in a vessel that is stirred all through they
-    stand in thickened slurry (``vessel_contents``). Each pulse is filtered again, and clears the medium wholly.
+    stand in thickened slurry (``vessel_contents``). Each pulse is filtered again, and clears the medium.
     Limits recalled, not opened.
     """
 
