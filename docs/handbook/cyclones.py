@@ -1,11 +1,13 @@
 """What the chapter on cyclones and gas cleaning states, calculated."""
 
 from math import log, sqrt
+from pathlib import Path
 
 import numpy as np
 
 import granum as gr
 from granum.app.chapters import said
+from granum.app.shipped import examples_folder
 from granum.core.charts import DASHES, LINES, add_line, add_points, axis_title, figure
 
 c, p, du, m = gr.cyclones, gr.particles, gr.dust, gr.materials
@@ -133,6 +135,11 @@ pulp = c.hydrocyclone_sizing(
     particle_density=2650,
     solids_volume_fraction=0.05,
 )
+network = gr.read(Path(examples_folder()) / "hydrocyclone-network" / "line.toml").solve()
+sharper = np.ravel(network.streams["clean_sand"].solid) / np.ravel(network.streams["raw_sand"].solid)
+bypassed = 100 * float(sharper[0])
+bypass_single = 100 * network.figure("rougher.underflow_share")
+roughers = network.found["rougher.parallel_number"]
 
 
 def figure_grade():

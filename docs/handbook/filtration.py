@@ -109,6 +109,13 @@ sand_test = {"concentration_inlet": "10 mg/L", "superficial_velocity": "5 m/hour
 number_little = float(f.filterability_number("0.2 m", "1 mg/L", **sand_test))
 number_much = float(f.filterability_number("0.5 m", "0.3 mg/L", **sand_test))
 
+dips = f.CakeFormationTest.read(BENCH / "cake_formation_test_made.csv").fit()
+centimeter = dips["standard_cake_formation_time"]
+like_medium = dips["cake_thickness_medium"].value
+centimeter_leaf = f.standard_cake_formation_time(
+    "1e10 m/kg", "100 kg/m3", void_fraction=0.5, solid_density=3000, dynamic_viscosity="1 cP"
+)
+
 # ---- cargo
 compacted = f.ProctorFagerbergTest.read(
     BENCH / "proctor_fagerberg_test_made.csv", solid_density="4.2 g/cm3"
@@ -145,6 +152,24 @@ unpressed = 0.54 * 998 / (0.54 * 998 + 0.46 * tube.streams["feed"].solid_density
 reached = [
     float(f.consolidation_ratio_terzaghi(f.consolidation_time("3 min", "1e-7 m2/s", 0.46 * z)))
     for z in (0.01, 0.02)
+]
+
+# ---- thickeners
+pulsed = gr.alone("filtration.thickening_filter").solve()
+pulsed_area = pulsed.figure("thickening_filter.area_required")
+pulsed_thick = 1e3 * pulsed.figure("thickening_filter.cake_thickness")
+hourly = gr.alone("filtration.thickening_filter", filtration_time="1 hour").solve()
+hourly_area = hourly.figure("thickening_filter.area_required")
+STIRRED = {
+    "vessel_contents": "thickened",
+    "mass_transfer_coefficient": "2e-4 m/s",
+    "filtration_time": "1 day",
+}
+sheared_areas = [
+    gr.alone("filtration.thickening_filter", **STIRRED, solids_volume_fraction_thickened=to)
+    .solve()
+    .figure("thickening_filter.area_required")
+    for to in (0.15, 0.25)
 ]
 
 # ---- cartridges

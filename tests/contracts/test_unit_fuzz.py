@@ -29,6 +29,7 @@ QUICK = (
     "sized screen 3 wet",
     "cartridge",
     "drum",
+    "thickening",
     "tower",
     "tube",
     "gravity",

@@ -57,6 +57,7 @@ from granum.filtration.equipment.continuous import (
 from granum.filtration.equipment.deep_bed import DeepBedFilter
 from granum.filtration.equipment.gravity import GravityFilter
 from granum.filtration.equipment.high_presses import TowerPress, TubePress
+from granum.filtration.equipment.thickening import ThickeningFilter
 from granum.particles.partition import (
     BypassedPartition,
     IdealPartition,
@@ -369,6 +370,21 @@ def filters(classes: int) -> dict[str, Case]:
                 medium_resistance=10.0 ** (9.0 + 2.0 * u[4]),
                 deliquoring_time=1800.0 * u[5],
                 solids_recovery=0.9 + 0.1 * u[4],
+            ),
+        ),
+        "thickening": Case(
+            fine,
+            alone,
+            lambda f, u: ThickeningFilter(
+                *_cake(f, u),
+                0.03 + 0.3 * u[5],
+                medium_resistance=10.0 ** (9.0 + 2.0 * u[4]),
+                compressibility=0.9 * u[5],
+                solids_recovery=0.9 + 0.1 * u[4],
+                filtration_time=10.0 ** (1.5 + 2.5 * u[1]),
+                backwash_volume_per_area=5e-3 * u[2],
+                mass_transfer_coefficient=10.0 ** (-7.0 + 3.0 * u[3]) if classes % 2 == 0 else None,
+                vessel_contents="thickened" if classes % 4 == 0 else "feed",
             ),
         ),
         "cartridge": Case(

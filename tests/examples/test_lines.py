@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+import numpy as np
 import pytest
 from tests.sharing.places import EXAMPLES
 
@@ -12,6 +13,8 @@ import granum as gr
 LINES = (
     "sewage-sludge",
     "ore-grinding",
+    "hydrocyclone-network",
+    "mineral-concentrate",
     "batch-pharma",
     "starch-drying",
     "spray-drying",
@@ -72,6 +75,44 @@ def test_circulating_load_of_a_grinding_circuit() -> None:
     f80, p80 = (float(size_passing(line.streams[n])) * 1e6 for n in ("ore", "fine"))
     bond = 10 * 12.77 * (p80**-0.5 - f80**-0.5)  # kWh per short ton, quartz, Bond (1961)
     assert pytest.approx(bond * 1.102, rel=0.34) == 200.0 / 10.0
+    assert all(c.ok for u in line.units.values() for c in u.checks)
+
+
+def test_three_stages_of_hydrocyclones_by_the_balance_of_each_size() -> None:
+    """R = F + R g₁(1 − g₂) + R (1 − g₁) g₃ of each class, with the efficiencies of the three stages."""
+    line = run("hydrocyclone-network")
+    flows = {name: np.asarray(stream.solid).ravel() for name, stream in line.streams.items()}
+    flows = {name: flow[flows["slimes"] > 1e-12] for name, flow in flows.items()}
+    g1 = flows["rough"] / flows["slurry"]
+    g2, g3 = flows["clean_sand"] / flows["diluted"], flows["returned_sand"] / flows["slimes"]
+    whole = g1 * g2 / (1.0 - g1 * (1.0 - g2) - (1.0 - g1) * g3)
+    assert flows["clean_sand"] / flows["raw_sand"] == pytest.approx(whole, rel=1e-9)
+    single = line.figure("rougher.underflow_share")
+    assert whole[0] < 0.2 * single  # of what only goes with the water
+    assert whole[-1] > 0.999
+    assert (np.diff(whole) > -1e-12).all()
+    assert line.figure("rougher.pressure_drop") == pytest.approx(1e5)
+    # both outlets of every stage are open to the air
+    assert all(float(stream.pressure) == pytest.approx(101325.0) for stream in line.streams.values())
+    assert all(c.ok for u in line.units.values() for c in u.checks)
+
+
+def test_a_concentrate_thickened_pressed_and_polished() -> None:
+    line = run("mineral-concentrate")
+    flows = {name: float(stream.solid_flow) for name, stream in line.streams.items()}
+    # what candles and press let through, and what the cartridges hold of it in a life
+    passed = 2e-4 * flows["concentrate"] + 5e-4 * flows["thickened"]
+    assert flows["to_polish"] == pytest.approx(passed, rel=1e-9)
+    held = flows["spent"] * line.figure("cartridges.run_time")
+    assert held == pytest.approx(60.0 * line.figure("cartridges.dirt_held"), rel=1e-9)
+    # a spent length takes its 0.3 L along
+    spent = line.streams["spent"].liquid_volume_flow * line.figure("cartridges.run_time")
+    assert float(spent) == pytest.approx(60.0 * 3e-4, rel=1e-9)
+    water = {name: float(stream.liquid[0]) for name, stream in line.streams.items()}
+    returned = (water["process_water"] + water["washings"]) / (water["concentrate"] + water["wash_water"])
+    assert returned > 0.98
+    salt = line.streams["cake"].liquid[1] / line.streams["cake"].liquid_flow
+    assert float(salt) < 0.05 * 0.002
     assert all(c.ok for u in line.units.values() for c in u.checks)
 
 

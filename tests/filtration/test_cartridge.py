@@ -60,6 +60,8 @@ def test_life_and_removal_by_hand() -> None:
     assert run.figure("cartridge_filter.run_time") == pytest.approx(30.0 * held / caught, rel=1e-9)
     uses = run.solution.sheets["cartridge_filter"].uses
     assert uses["consumption_cartridges"] == pytest.approx(30.0 * 0.2 * caught / (30.0 * held), rel=1e-9)
+    spent = float(run.streams["cartridge_filter.dirt"].liquid_volume_flow)
+    assert spent * 30.0 * held / caught == pytest.approx(30.0 * 3e-4, rel=1e-9)  # 0.3 L stay in each
     # between the pressure drops of both ends, at a pump of 0.7 and a motor of 0.9
     ends = [float(feed.slurry_volume_flow) * p / 0.63 for p in (clean, 2e5)]
     assert ends[0] < uses["electric_power_pump"] < ends[1]

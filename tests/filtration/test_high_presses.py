@@ -81,3 +81,18 @@ def test_wash_and_turn_of_a_tower_by_hand() -> None:
     assert sheet.area_required == pytest.approx(
         float(solid * sheet.cycle_time / sheet.dry_cake_mass_per_area), rel=1e-12
     )
+
+
+def test_a_membrane_press_squeezes_harder_than_it_filters() -> None:
+    """Solids by volume in proportion to the power of the pressure, by hand; none without, as before."""
+    plain, pump = pressed("membrane_press"), 6e5
+    wetness = []
+    for times in (1.0, 2.0, 3.0):
+        run = pressed("membrane_press", squeezing_pressure=times * pump, compaction_exponent=0.1)
+        wetness.append(float(run.figure("membrane_press.moisture_dry_basis")))
+    assert wetness[0] == pytest.approx(float(plain.figure("membrane_press.moisture_dry_basis")), rel=1e-9)
+    # from 45 % of voids: 0.55 · 2^0.1 of solids by volume at twice the pressure
+    assert wetness[1] / wetness[0] == pytest.approx((1.0 / (0.55 * 2.0**0.1) - 1.0) / (0.45 / 0.55), rel=1e-9)
+    assert wetness[0] > wetness[1] > wetness[2]
+    rigid = pressed("membrane_press", squeezing_pressure=3.0 * pump)
+    assert float(rigid.figure("membrane_press.moisture_dry_basis")) == pytest.approx(wetness[0], rel=1e-9)

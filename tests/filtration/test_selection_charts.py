@@ -51,6 +51,18 @@ def test_no_two_machines_tie_at_the_top_and_each_rank_has_its_reason():
     assert "take" in found.speaks_against[found.separator.index("rotary vacuum drum")]
 
 
+def test_cartridges_polish_and_pulsed_candles_thicken():
+    """Nobody throws cartridges at a slurry, nor builds a sand bed for a cubic meter per hour."""
+    clear, found = ranked("3 um", 1600, 1e-5, "1 m^3/hour")
+    assert clear["cartridge filter"] > max(clear["deep bed of sand"], clear["candle filter"])
+    slurry, _found = ranked("3 um", 1600, 0.02, "20 m^3/hour", liquid_left_wanted=0.85)
+    assert slurry["cartridge filter"] < 0.1
+    assert slurry["thickening filter"] > max(0.5, slurry["deep bed of sand"])
+    dry, found = ranked("3 um", 1600, 0.02, "20 m^3/hour", liquid_left_wanted=0.4)
+    assert dry["thickening filter"] < dry["membrane press"]
+    assert "leaves more liquid" in found.speaks_against[found.separator.index("thickening filter")]
+
+
 def test_presses_for_sludge_and_a_filter_under_its_own_head():
     """Primary sludge in flocs: presses that run all the time before those for batches; sand needs none."""
     sludge, found = ranked("30 um", 60, 0.03, "20 m^3/hour", liquid_left_wanted=0.75)

@@ -52,6 +52,7 @@ SLURRY = {
         "dirt_capacity": 0.1,
         "pressure_drop_change": "3 bar",
     },
+    "filtration.thickening_filter": FILTER | {"area": 50.0, "solids_volume_fraction_thickened": 0.3},
     "filtration.deep_bed_filter": {"area": 2.0, "bed_depth": 1.0, "collector_diameter": "0.8 mm"},
     "fluidization.liquid_fluidized_bed": {
         "area": 0.02,

@@ -416,6 +416,16 @@ def data(key: str) -> Data:
             "filtrate_volume",
             0.003,
         ),
+        "cake_formation_test": lambda: Data(
+            {
+                "time": np.repeat([20.0, 60.0, 180.0, 420.0], 3),
+                "cake_thickness": np.sqrt(1.5e-3**2 + 4e-7 * np.repeat([20.0, 60.0, 180.0, 420.0], 3))
+                - 1.5e-3,
+            },
+            {},
+            "cake_thickness",
+            0.003,
+        ),
         "capillary_suction_test": lambda: Data(
             {
                 "suction_time": 8.0 + 2.4 * np.repeat([0.0, 5.0, 10.0, 20.0], 3),

@@ -87,6 +87,12 @@ from granum.filtration.equipment.screw_press import (
     ScrewFigures as ScrewFigures,
     ScrewPress as ScrewPress,
 )
+from granum.filtration.equipment.thickening import (
+    Pulsed as Pulsed,
+    Thickened as Thickened,
+    ThickeningFigures as ThickeningFigures,
+    ThickeningFilter as ThickeningFilter,
+)
 from granum.filtration.formulas.adsorption import (
     adsorption_rate_lodewyckx as adsorption_rate_lodewyckx,
     breakthrough_fraction_bohart_adams as breakthrough_fraction_bohart_adams,
@@ -99,6 +105,9 @@ from granum.filtration.formulas.backwash import (
 from granum.filtration.formulas.blocking import (
     dirt_held_blocking as dirt_held_blocking,
     filtrate_volume_blocking as filtrate_volume_blocking,
+)
+from granum.filtration.formulas.cake_growth import (
+    standard_cake_formation_time as standard_cake_formation_time,
 )
 from granum.filtration.formulas.compressible import (
     CakeProfile as CakeProfile,
@@ -244,6 +253,9 @@ from granum.filtration.lab_tests.adsorption import (
 from granum.filtration.lab_tests.blocking import (
     BlockingTest as BlockingTest,
 )
+from granum.filtration.lab_tests.cake_formation import (
+    CakeFormationTest as CakeFormationTest,
+)
 from granum.filtration.lab_tests.cake_tests import (
     CompressionCell as CompressionCell,
     DeliquoringCurve as DeliquoringCurve,
@@ -286,5 +298,6 @@ from granum.filtration.selection import (
     Separators as Separators,
     air_filter_class as air_filter_class,
     air_filter_class_particulate as air_filter_class_particulate,
+    filtering_class as filtering_class,
     separator_choice as separator_choice,
 )

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import Fraction, Length, PositiveNumber, PressureDrop, Within
 from granum.core.limits import Limit
 from granum.cyclones.formulas.hydrocyclones import (
@@ -42,7 +43,8 @@ class Hydrocyclone(Unit):
     """Equal hydrocyclones of Rietema's proportions in parallel: every size class split by its efficiency, the
     liquid by the water split.
 
-    Solids lighter than the liquid are outside the model: they are divided like the liquid, and a check tells
+    Both outlets are open to the air: what the feed lacks in pressure, its own pump gives. Solids lighter than
+    the liquid are outside the model: they are divided like the liquid, and a check tells
     it.
     """
 
@@ -107,7 +109,8 @@ class Hydrocyclone(Unit):
         share = share.reshape(share.shape + (1,) * len(m.axes))
         under = feed.part(solid=share, liquid=jnp.ravel(found.underflow_share)[0])
         over = feed.replace(solid=feed.solid - under.solid, liquid=feed.liquid - under.liquid)
-        lower = jnp.maximum(feed.pressure - jnp.ravel(found.pressure_drop)[0], 1e3)
+        least = jnp.minimum(feed.pressure, STANDARD_ATMOSPHERE)
+        lower = jnp.maximum(feed.pressure - jnp.ravel(found.pressure_drop)[0], least)
         return Split(under.replace(pressure=lower), over.replace(pressure=lower))
 
     def figures(self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, feed: Stream) -> SplitFigures:

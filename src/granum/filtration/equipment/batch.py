@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import abc
 from dataclasses import KW_ONLY
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
@@ -14,13 +14,24 @@ from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.errors import CaseError
 from granum.core.i18n import _
-from granum.core.kinds import Diffusivity, DynamicViscosity, FlowIndex, Length, Time, VoidFraction
+from granum.core.kinds import (
+    Diffusivity,
+    DynamicViscosity,
+    FlowIndex,
+    Length,
+    PressureDrop,
+    Ratio,
+    Time,
+    VoidFraction,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
 from granum.filtration.formulas.non_newtonian import filtration_time_power_law
+from granum.filtration.squeezing import void_ratio
 from granum.porous.formulas.non_newtonian import dynamic_viscosity_permeable_christopher_middleman
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
@@ -277,22 +288,45 @@ class SqueezingFilter(BatchFilter):
         }
 
 
-@equipment("membrane_press", source="wakeman2005", title="Membrane filter press")
+@equipment("membrane_press", source="wakeman2005; tiller1953", title="Membrane filter press")
 class MembranePress(SqueezingFilter, Press):
     """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing
     time.
 
     With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber
-    draining on one face; without, it is taken as reached.
+    draining on one face; without, it is taken as reached. Membranes press as hard as the slurry pump unless
+    a ``squeezing_pressure`` is given; the solids of the squeezed cake then grow with its power
+    ``compaction_exponent`` over the pressure of the pump, for which ``void_fraction_squeezed`` holds.
     """
 
     void_fraction_squeezed: VoidFraction
+    _: KW_ONLY
+    squeezing_pressure: PressureDrop | None = None
+    compaction_exponent: Annotated[Ratio, Within(0.0, 0.5)] = 0.0
 
-    limits: ClassVar[Limits] = Press.limits | SqueezingFilter.limits
+    limits: ClassVar[Limits] = (
+        Press.limits
+        | SqueezingFilter.limits
+        | {
+            "squeeze": Limit("squeezing pressure", 4e5, 2.5e6, "Pa", "wakeman2005"),
+        }
+    )
+
+    @property
+    def pressure_end(self) -> Any:
+        return self.pressure_drop if self.squeezing_pressure is None else self.squeezing_pressure
 
     @property
     def void_fraction_end(self) -> Any:
-        return self.void_fraction_squeezed
+        packed = 1.0 - self.void_fraction_squeezed
+        ratio = void_ratio(self.pressure_end, packed, self.pressure_drop, self.compaction_exponent, 0.0)
+        return jnp.minimum(ratio / (1.0 + ratio), self.void_fraction)
+
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        found = super().measured(inside, outlets, figures, feed, wash)
+        return found if self.squeezing_pressure is None else found | {"squeeze": self.squeezing_pressure}
 
 
 @equipment("nutsche", source="wakeman2005", title="Nutsche filter")

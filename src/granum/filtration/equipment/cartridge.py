@@ -94,7 +94,8 @@ class CartridgeFilter(Unit):
     Makers rate a length by its clean pressure drop with water at a flow, its dirt-holding capacity up to a
     stated pressure drop, and the removal at a size; another flow or viscosity changes the clean pressure drop
     in proportion and, with it, what is held. Removal grows with size as interception in depth has it.
-    Liquid left in spent cartridges is not counted. Limits recalled, not opened.
+    Spent cartridges leave full of ``liquid_per_length`` (voids and core of a common length, our own
+    estimate), which the dirt takes along. Limits recalled, not opened.
     """
 
     cartridge_lengths: PositiveNumber
@@ -107,6 +108,7 @@ class CartridgeFilter(Unit):
     pressure_drop_capacity: PressureDrop = 2e5
     pressure_drop_change: PressureDrop = 2e5
     mass_per_length: Mass = 0.2
+    liquid_per_length: Volume = 3e-4
     blocking_law: BlockingLaw = eqx.field(static=True, default="intermediate")
 
     limits: ClassVar[Limits] = {
@@ -146,8 +148,12 @@ class CartridgeFilter(Unit):
         return Held(flow, clean, clean * grown, share, dirt, life)
 
     def outlets(self, inside: Held, feed: Stream) -> CartridgeOutlets:
-        dirt = feed.part(solid=inside.share)
-        return CartridgeOutlets(feed.replace(solid=feed.solid - dirt.solid), dirt)
+        held = self.cartridge_lengths * self.liquid_per_length / jnp.maximum(inside.life, LEAST)
+        liquid = jnp.minimum(safe_divide(held, feed.liquid_volume_flow, 0.0), 1.0)
+        dirt = feed.part(solid=inside.share, liquid=liquid)
+        return CartridgeOutlets(
+            feed.replace(solid=feed.solid - dirt.solid, liquid=feed.liquid - dirt.liquid), dirt
+        )
 
     def figures(self, inside: Held, outlets: CartridgeOutlets, feed: Stream) -> CartridgeFigures:
         return CartridgeFigures(
