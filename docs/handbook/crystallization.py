@@ -126,6 +126,42 @@ cycled = c.batch(
     dissolution={"law": "power_law_dissolution", "dissolution_coefficient": "1 mm/s"},
 )
 
+UNSEEDED = {k: v for k, v in BATCH.items() if not k.startswith(("seed", "nucleation", "duration"))}
+PRIMARY = {
+    much: {
+        "law": "secondary_nucleation",
+        "nucleation_coefficient": k,
+        "nucleation_order": 6,
+        "magma_order": 0,
+    }
+    for much, k in (("as found", 1e15), ("tenfold", 1e16))
+}
+straight = {
+    much: c.batch(
+        **UNSEEDED,
+        nucleation=law,
+        duration="5 hour",
+        temperature_program=c.PowerCooling("34 degC", "28 degC", "5 hour", 1.0),
+    )
+    for much, law in PRIMARY.items()
+}
+counted = {
+    much: c.nucleation_controlled_batch(
+        **UNSEEDED,
+        nucleation=law,
+        dissolution={"law": "power_law_dissolution", "dissolution_coefficient": "1 mm/s"},
+        crystal_number_lower="30 1/cm^3",
+        crystal_number_upper="100 1/cm^3",
+        temperature_start="34 degC",
+        temperature_end="28 degC",
+        duration="5 hour",
+        cooling_rate="2 K/h",
+        heating_rate="4 K/h",
+        steps=1000,
+    )
+    for much, law in PRIMARY.items()
+}
+
 # ---- dosing
 dosed = {
     power: alone(

@@ -6,19 +6,20 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
-from tests.contracts.unit_cases import crystallizers
+from tests.contracts.unit_cases import _solution, crystallizers
 from tests.contracts.unit_search import Case, shares
 
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer,
     AntisolventCrystallizer,
 )
+from granum.crystallization.equipment.controlled import NucleationControlledCrystallizer
 from granum.crystallization.equipment.hydroxides import HydroxidePrecipitator
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
 from granum.crystallization.equipment.uptake import ImpurityUptake
-from granum.crystallization.formulas.growth import PowerLawGrowth
+from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
 from granum.streams.from_materials import mixture_of
@@ -107,6 +108,28 @@ def _chlorides(mixture: Mixture, x: Any) -> dict[str, Stream]:
 def mixed(classes: int) -> dict[str, Case]:
     nitrate = crystallizers(classes)["msmpr"].mixture
     return {
+        "counted": Case(
+            nitrate,
+            _solution,
+            lambda f, u: NucleationControlledCrystallizer(
+                10.0 ** (6.0 + 3.0 * u[5]),
+                10.0 ** (6.0 + 3.0 * u[5]) * (1.5 + 10.0 * u[3]),
+                temperature_end=f["feed"].temperature - 1.0 - 30.0 * u[0],
+                cooling_rate=(1.0 + 20.0 * u[1]) / 3600.0,
+                heating_rate=(1.0 + 20.0 * u[2]) / 3600.0,
+                count_deviation=0.1 * u[4],
+                dissolution=PowerLawDissolution(10.0 ** (-5.0 + 2.0 * u[5])),
+                duration=3600.0 * (1.0 + 9.0 * u[1]),
+                seed_mass_per_solvent=0.01 * u[3] * (u[4] > 0.5),
+                solubility=PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]),
+                growth=PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+                nucleation=PowerLawNucleation(
+                    10.0 ** (8.0 + 6.0 * u[4]), 2.0 + 4.0 * u[5], 1.0 * (u[0] > 0.5)
+                ),
+                solid="nitrate",
+                solvent="water",
+            ),
+        ),
         "drowned": Case(
             nitrate,
             _met,

@@ -50,6 +50,9 @@ from granum.crystallization.equipment.boiling import (
 from granum.crystallization.equipment.controlled import (
     ControlledBatchCrystallizer as ControlledBatchCrystallizer,
     ControlledBatchFigures as ControlledBatchFigures,
+    FollowedBatch as FollowedBatch,
+    NucleationControlledCrystallizer as NucleationControlledCrystallizer,
+    NucleationControlledFigures as NucleationControlledFigures,
 )
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
@@ -360,6 +363,7 @@ from granum.crystallization.population.lagrangian import (
 from granum.crystallization.population.operations import (
     Addition as Addition,
     Contents as Contents,
+    Counted as Counted,
     Flashing as Flashing,
     Heat as Heat,
     HeatData as HeatData,
@@ -421,6 +425,7 @@ from granum.crystallization.vessels.dynamic import (
 )
 from granum.crystallization.vessels.held import (
     controlled_batch as controlled_batch,
+    nucleation_controlled_batch as nucleation_controlled_batch,
 )
 from granum.crystallization.vessels.moving import (
     Moving as Moving,
