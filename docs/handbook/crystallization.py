@@ -225,6 +225,17 @@ over = 1190 * (1.01 * per_salt / (1 + 1.01 * per_salt) - per_salt / (1 + per_sal
 clear = c.growth_rate_clear_carlson("0.5 mm", "5 cm/s", over, 2110, 1.5e-9, "0.8 mm^2/s")
 hindered = c.growth_ratio_kubota_mullin("1 %", "2 mmol/L", 1 / 3, "2 %")
 
+# ---- melt
+layers = alone("crystallization.layer_melt_crystallizer").solve().units["layer_melt_crystallizer"].values
+washed = {
+    w: alone("crystallization.suspension_melt_crystallizer", wash_ratio=w)
+    .solve()
+    .units["suspension_melt_crystallizer"]
+    .values
+    for w in (0.0, 0.5, 0.7, 0.8, 1.05)
+}
+frozen_layers = float(layers.layer_flow / layers.product_mass_flow)
+
 # ---- stirrer
 impeller_wide = across / 3
 stirred_speed = tank.rotation_speed_zwietering(

@@ -17,6 +17,7 @@ from granum.crystallization.equipment.controlled import NucleationControlledCrys
 from granum.crystallization.equipment.hydroxides import HydroxidePrecipitator
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
+from granum.crystallization.equipment.suspension_melt import SuspensionMeltCrystallizer
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
 from granum.crystallization.equipment.uptake import ImpurityUptake
 from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
@@ -174,6 +175,25 @@ def mixed(classes: int) -> dict[str, Case]:
                 3e-6,
                 0.3 + 0.5 * u[3],
                 sweated_fraction=0.2 * u[4],
+                impurity_fraction_eutectic=0.3 + 0.6 * u[5],
+                pure_liquid="water",
+            ),
+        ),
+        "wash column": Case(
+            nitrate,
+            _melt,
+            lambda f, u: SuspensionMeltCrystallizer(
+                260.0 + 15.0 * u[0],
+                258.0 + 15.0 * u[0] - 20.0 * u[1],
+                334e3,
+                0.1 + 0.8 * u[3],
+                1.8e-3,
+                crystal_size=5e-5 + 1e-3 * u[2],
+                wash_ratio=1.5 * u[4],
+                wash_efficiency=0.8 + 0.2 * u[5],
+                washed_height=0.02 + u[4],
+                bed_velocity=10.0 ** (-4.0 + 2.0 * u[3]),
+                inclusion_fraction=0.01 * u[1],
                 impurity_fraction_eutectic=0.3 + 0.6 * u[5],
                 pure_liquid="water",
             ),

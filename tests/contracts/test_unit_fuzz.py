@@ -43,6 +43,7 @@ QUICK = (
     "ultrafiltration",
     "osmosis",
     "layers",
+    "wash column",
     "flotation",
     "belt press",
     "screw press",

@@ -374,6 +374,7 @@ AS_ALONE = (  # with the values with which they open by themselves
     "drying.impingement_dryer",
     "drying.paper_machine",
     "crystallization.layer_melt_crystallizer",
+    "crystallization.suspension_melt_crystallizer",
     "dust.mesh_pad",
     "filtration.belt_press",
     "filtration.reverse_osmosis",

@@ -95,6 +95,12 @@ from granum.crystallization.equipment.stirring import (
     Stirred as Stirred,
     Stirring as Stirring,
 )
+from granum.crystallization.equipment.suspension_melt import (
+    SuspensionMeltCrystallizer as SuspensionMeltCrystallizer,
+    SuspensionMeltFigures as SuspensionMeltFigures,
+    SuspensionMeltOutlets as SuspensionMeltOutlets,
+    Washed as Washed,
+)
 from granum.crystallization.equipment.tubes import (
     BaffledTubeCrystallizer as BaffledTubeCrystallizer,
     BaffledTubeFigures as BaffledTubeFigures,
@@ -323,6 +329,11 @@ from granum.crystallization.formulas.tubes import (
     OscillatoryLoss as OscillatoryLoss,
     oscillatory_flow as oscillatory_flow,
     oscillatory_loss as oscillatory_loss,
+)
+from granum.crystallization.formulas.wash_columns import (
+    WashFront as WashFront,
+    impurity_ratio_wash_column as impurity_ratio_wash_column,
+    wash_front as wash_front,
 )
 from granum.crystallization.lab_tests.batch_kinetics import (
     BatchKinetics as BatchKinetics,
