@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from tests.contracts.unit_cases import _solution, crystallizers
@@ -107,8 +108,31 @@ def _chlorides(mixture: Mixture, x: Any) -> dict[str, Stream]:
 
 
 def mixed(classes: int) -> dict[str, Case]:
-    nitrate = crystallizers(classes)["msmpr"].mixture
+    plain = crystallizers(classes)
+    nitrate = plain["msmpr"].mixture
+
+    def dissolving(name: str) -> Case:
+        """A batch or tube whose crystals dissolve in an undersaturated solution."""
+
+        def unit(f: Any, u: Any) -> Any:
+            made = plain[name].unit(f, u)
+            law = PowerLawDissolution(10.0 ** (-6.0 + 3.0 * u[4]))
+            return eqx.tree_at(lambda x: x.dissolution, made, law, is_leaf=lambda x: x is None)
+
+        return Case(nitrate, _solution, unit)
+
+    def spread(f: Any, u: Any) -> Any:
+        made = plain["tube"].unit(f, u)
+        return eqx.tree_at(
+            lambda x: x.tank_number_tube, made, 3.0 + 100.0 * u[5] ** 2, is_leaf=lambda x: x is None
+        )
+
     return {
+        "tube with spread stays": Case(nitrate, _solution, spread),
+        "batch that dissolves": dissolving("batch"),
+        "jacketed that dissolves": dissolving("jacketed"),
+        "vacuum batch that dissolves": dissolving("vacuum batch"),
+        "tube that dissolves": dissolving("tube"),
         "counted": Case(
             nitrate,
             _solution,
@@ -159,6 +183,25 @@ def mixed(classes: int) -> dict[str, Case]:
                 ),
                 growth=PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
                 nucleation=PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
+                solid="nitrate",
+                solvent="water",
+                second_solvent="ethanol",
+            ),
+        ),
+        "drowned batches that dissolve": Case(
+            nitrate,
+            _met,
+            lambda f, u: AntisolventBatchCrystallizer(
+                285.0 + 25.0 * u[0],
+                duration=10.0 ** (3.0 + 2.0 * u[1]),
+                addition_exponent=0.5 + 3.0 * u[3],
+                seed_mass_per_solvent=0.02 * u[4],
+                solubility=AntisolventSolubility(
+                    PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), 1.0 + 5.0 * u[5]
+                ),
+                growth=PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+                nucleation=PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
+                dissolution=PowerLawDissolution(10.0 ** (-6.0 + 3.0 * u[4])),
                 solid="nitrate",
                 solvent="water",
                 second_solvent="ethanol",

@@ -104,8 +104,10 @@ from granum.crystallization.equipment.suspension_melt import (
 from granum.crystallization.equipment.tubes import (
     BaffledTubeCrystallizer as BaffledTubeCrystallizer,
     BaffledTubeFigures as BaffledTubeFigures,
+    Passed as Passed,
     PlugFlowCrystallizer as PlugFlowCrystallizer,
     PlugFlowFigures as PlugFlowFigures,
+    Spread as Spread,
     Tube as Tube,
 )
 from granum.crystallization.equipment.two_salts import (

@@ -32,7 +32,7 @@ class WashFront(NamedTuple):
 @formula(
     source="arkenbout1995; mullin2001, ch. 8",
     title="Wash front in a bed of cold crystals",
-    equation=r"r = \frac{c_p\,\Delta T}{\Delta h_f},\quad 1-\varepsilon' = (1-\varepsilon)(1+r)",
+    equation=r"r = \frac{c_p\,\Delta T}{L_f},\quad 1-\varepsilon' = (1-\varepsilon)(1+r)",
     output="wash_front",
     typical={"specific_heat_capacity": (1000.0, 2200.0), "undercooling": (2.0, 20.0)},
 )
