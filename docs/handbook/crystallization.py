@@ -126,6 +126,42 @@ cycled = c.batch(
     dissolution={"law": "power_law_dissolution", "dissolution_coefficient": "1 mm/s"},
 )
 
+UNSEEDED = {k: v for k, v in BATCH.items() if not k.startswith(("seed", "nucleation", "duration"))}
+PRIMARY = {
+    much: {
+        "law": "secondary_nucleation",
+        "nucleation_coefficient": k,
+        "nucleation_order": 6,
+        "magma_order": 0,
+    }
+    for much, k in (("as found", 1e15), ("tenfold", 1e16))
+}
+straight = {
+    much: c.batch(
+        **UNSEEDED,
+        nucleation=law,
+        duration="5 hour",
+        temperature_program=c.PowerCooling("34 degC", "28 degC", "5 hour", 1.0),
+    )
+    for much, law in PRIMARY.items()
+}
+counted = {
+    much: c.nucleation_controlled_batch(
+        **UNSEEDED,
+        nucleation=law,
+        dissolution={"law": "power_law_dissolution", "dissolution_coefficient": "1 mm/s"},
+        crystal_number_lower="30 1/cm^3",
+        crystal_number_upper="100 1/cm^3",
+        temperature_start="34 degC",
+        temperature_end="28 degC",
+        duration="5 hour",
+        cooling_rate="2 K/h",
+        heating_rate="4 K/h",
+        steps=1000,
+    )
+    for much, law in PRIMARY.items()
+}
+
 # ---- dosing
 dosed = {
     power: alone(
@@ -205,6 +241,17 @@ per_salt = float(at["potassium nitrate"][0].solubility_per_solvent)
 over = 1190 * (1.01 * per_salt / (1 + 1.01 * per_salt) - per_salt / (1 + per_salt))
 clear = c.growth_rate_clear_carlson("0.5 mm", "5 cm/s", over, 2110, 1.5e-9, "0.8 mm^2/s")
 hindered = c.growth_ratio_kubota_mullin("1 %", "2 mmol/L", 1 / 3, "2 %")
+
+# ---- melt
+layers = alone("crystallization.layer_melt_crystallizer").solve().units["layer_melt_crystallizer"].values
+washed = {
+    w: alone("crystallization.suspension_melt_crystallizer", wash_ratio=w)
+    .solve()
+    .units["suspension_melt_crystallizer"]
+    .values
+    for w in (0.0, 0.5, 0.7, 0.8, 1.05)
+}
+frozen_layers = float(layers.layer_flow / layers.product_mass_flow)
 
 # ---- stirrer
 impeller_wide = across / 3

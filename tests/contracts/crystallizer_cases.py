@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from typing import Any
 
+import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from tests.contracts.unit_cases import crystallizers
+from tests.contracts.unit_cases import _solution, crystallizers
 from tests.contracts.unit_search import Case, shares
 
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer,
     AntisolventCrystallizer,
 )
+from granum.crystallization.equipment.controlled import NucleationControlledCrystallizer
 from granum.crystallization.equipment.hydroxides import HydroxidePrecipitator
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
+from granum.crystallization.equipment.suspension_melt import SuspensionMeltCrystallizer
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
 from granum.crystallization.equipment.uptake import ImpurityUptake
-from granum.crystallization.formulas.growth import PowerLawGrowth
+from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
 from granum.streams.from_materials import mixture_of
@@ -105,8 +108,53 @@ def _chlorides(mixture: Mixture, x: Any) -> dict[str, Stream]:
 
 
 def mixed(classes: int) -> dict[str, Case]:
-    nitrate = crystallizers(classes)["msmpr"].mixture
+    plain = crystallizers(classes)
+    nitrate = plain["msmpr"].mixture
+
+    def dissolving(name: str) -> Case:
+        """A batch or tube whose crystals dissolve in an undersaturated solution."""
+
+        def unit(f: Any, u: Any) -> Any:
+            made = plain[name].unit(f, u)
+            law = PowerLawDissolution(10.0 ** (-6.0 + 3.0 * u[4]))
+            return eqx.tree_at(lambda x: x.dissolution, made, law, is_leaf=lambda x: x is None)
+
+        return Case(nitrate, _solution, unit)
+
+    def spread(f: Any, u: Any) -> Any:
+        made = plain["tube"].unit(f, u)
+        return eqx.tree_at(
+            lambda x: x.tank_number_tube, made, 3.0 + 100.0 * u[5] ** 2, is_leaf=lambda x: x is None
+        )
+
     return {
+        "tube with spread stays": Case(nitrate, _solution, spread),
+        "batch that dissolves": dissolving("batch"),
+        "jacketed that dissolves": dissolving("jacketed"),
+        "vacuum batch that dissolves": dissolving("vacuum batch"),
+        "tube that dissolves": dissolving("tube"),
+        "counted": Case(
+            nitrate,
+            _solution,
+            lambda f, u: NucleationControlledCrystallizer(
+                10.0 ** (6.0 + 3.0 * u[5]),
+                10.0 ** (6.0 + 3.0 * u[5]) * (1.5 + 10.0 * u[3]),
+                temperature_end=f["feed"].temperature - 1.0 - 30.0 * u[0],
+                cooling_rate=(1.0 + 20.0 * u[1]) / 3600.0,
+                heating_rate=(1.0 + 20.0 * u[2]) / 3600.0,
+                count_deviation=0.1 * u[4],
+                dissolution=PowerLawDissolution(10.0 ** (-5.0 + 2.0 * u[5])),
+                duration=3600.0 * (1.0 + 9.0 * u[1]),
+                seed_mass_per_solvent=0.01 * u[3] * (u[4] > 0.5),
+                solubility=PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]),
+                growth=PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+                nucleation=PowerLawNucleation(
+                    10.0 ** (8.0 + 6.0 * u[4]), 2.0 + 4.0 * u[5], 1.0 * (u[0] > 0.5)
+                ),
+                solid="nitrate",
+                solvent="water",
+            ),
+        ),
         "drowned": Case(
             nitrate,
             _met,
@@ -140,6 +188,25 @@ def mixed(classes: int) -> dict[str, Case]:
                 second_solvent="ethanol",
             ),
         ),
+        "drowned batches that dissolve": Case(
+            nitrate,
+            _met,
+            lambda f, u: AntisolventBatchCrystallizer(
+                285.0 + 25.0 * u[0],
+                duration=10.0 ** (3.0 + 2.0 * u[1]),
+                addition_exponent=0.5 + 3.0 * u[3],
+                seed_mass_per_solvent=0.02 * u[4],
+                solubility=AntisolventSolubility(
+                    PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), 1.0 + 5.0 * u[5]
+                ),
+                growth=PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+                nucleation=PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
+                dissolution=PowerLawDissolution(10.0 ** (-6.0 + 3.0 * u[4])),
+                solid="nitrate",
+                solvent="water",
+                second_solvent="ethanol",
+            ),
+        ),
         "layers": Case(
             nitrate,
             _melt,
@@ -151,6 +218,25 @@ def mixed(classes: int) -> dict[str, Case]:
                 3e-6,
                 0.3 + 0.5 * u[3],
                 sweated_fraction=0.2 * u[4],
+                impurity_fraction_eutectic=0.3 + 0.6 * u[5],
+                pure_liquid="water",
+            ),
+        ),
+        "wash column": Case(
+            nitrate,
+            _melt,
+            lambda f, u: SuspensionMeltCrystallizer(
+                260.0 + 15.0 * u[0],
+                258.0 + 15.0 * u[0] - 20.0 * u[1],
+                334e3,
+                0.1 + 0.8 * u[3],
+                1.8e-3,
+                crystal_size=5e-5 + 1e-3 * u[2],
+                wash_ratio=1.5 * u[4],
+                wash_efficiency=0.8 + 0.2 * u[5],
+                washed_height=0.02 + u[4],
+                bed_velocity=10.0 ** (-4.0 + 2.0 * u[3]),
+                inclusion_fraction=0.01 * u[1],
                 impurity_fraction_eutectic=0.3 + 0.6 * u[5],
                 pure_liquid="water",
             ),

@@ -44,6 +44,7 @@ QUICK = (
     "ultrafiltration",
     "osmosis",
     "layers",
+    "wash column",
     "flotation",
     "belt press",
     "screw press",

@@ -694,7 +694,7 @@ def crystallizers(classes: int) -> dict[str, Case]:
         "controlled": Cased(
             lambda f, u: ControlledBatchCrystallizer(
                 10.0 ** (-2.5 + 1.5 * u[2]),
-                f["feed"].temperature - 1.0 - 30.0 * u[0],
+                temperature_end=f["feed"].temperature - 1.0 - 30.0 * u[0],
                 cooling_rate_maximum=(5.0 + 55.0 * u[4]) / 3600.0,
                 concentration_deviation=0.01 * u[5],
                 dissolution=PowerLawDissolution(1e-4),

@@ -25,7 +25,7 @@ from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLaw
 from granum.crystallization.formulas.programs import CycledCooling, PowerCooling
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
 from granum.crystallization.population.lagrangian import Model, SolventVolume, march
-from granum.crystallization.population.operations import Held, Programmed, Sensor
+from granum.crystallization.population.operations import Counted, Held, Programmed, Sensor
 from granum.crystallization.vessels.crystals import Crystal
 
 KEPT, HOT, COLD = 0.004, 305.15, 301.15
@@ -141,3 +141,71 @@ def test_unit_tells_when_it_is_cool_and_what_its_jacket_takes():
     mean = -float(figures.heat_duty) * 7200.0 / float(figures.time_cooled)
     assert mean < float(figures.heat_duty_maximum) < 6.0 * mean
     assert run.audit["energy_closure"] < 1e-9
+
+
+def counting(lower, upper, births=10.0, **other):
+    """A kilogram of water in which crystals are born at a constant rate, between 34 and 28 degC."""
+    made = Model(
+        PolynomialSolubility(SOLUBILITY["coefficients"]),
+        PowerLawGrowth(KG, G_ORDER),
+        ConstantBirths(births),
+        Crystal(DENSITY),
+        SolventVolume(1.0),
+        PowerLawDissolution(1e-3),
+    )
+    rates = {"cooling": 6.0 / 3600.0, "between": 3.0 / 3600.0, "heating": 12.0 / 3600.0} | other
+    operation = Counted(made, lower, upper, HOT, COLD, **rates)
+    times = jnp.linspace(0.0, 2400.0, 201)
+    return march(made, operation, seeds(), START, 1.0, times), float(seeds().moments()[0])
+
+
+def test_the_count_turns_cooling_down_and_then_into_heating():
+    """By hand: 10 crystals/s from the seeds' number on; straight lines of the three rates in between."""
+    found, seeded = counting(*(float(seeds().moments()[0]) + n for n in (6005.0, 12005.0)))
+    T, t = np.asarray(found.temperature), np.asarray(found.time)
+    assert float(found.moments[100, 0]) == pytest.approx(seeded + 12000.0, rel=1e-9)
+    np.testing.assert_allclose(T[:52], HOT - 6.0 * t[:52] / 3600.0, rtol=1e-12)
+    np.testing.assert_allclose(T[51:102], T[51] - 3.0 * (t[51:102] - t[51]) / 3600.0, rtol=1e-12)
+    np.testing.assert_allclose(T[102:105] - T[101], 12.0 * (t[102:105] - t[101]) / 3600.0, rtol=1e-9)
+    assert float(found.moments[150, 0]) < seeded + 12200.0  # what was born last is dissolved again
+    total = found.solute_per_solvent + found.crystals
+    assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
+
+
+def test_a_bound_that_no_count_reaches_leaves_a_straight_line():
+    found, _seeded = counting(1e8, 1e9)
+    np.testing.assert_allclose(
+        found.temperature, np.maximum(HOT - 6.0 * found.time / 3600.0, COLD), rtol=1e-12
+    )
+
+
+UNSEEDED = {k: v for k, v in BARE.items() if not k.startswith("seed")} | {
+    "solubility": SOLUBILITY,
+    "dissolution": {"law": "power_law_dissolution", "dissolution_coefficient": "1 mm/s"},
+    "temperature_start": "34 degC",
+    "temperature_end": "28 degC",
+}
+
+
+def test_bounds_that_cannot_be_kept_are_refused():
+    batch = gr.crystallization.nucleation_controlled_batch
+    with pytest.raises(InputError, match="not below the upper one"):
+        batch(**UNSEEDED, crystal_number_lower="30 1/cm^3", crystal_number_upper="20 1/cm^3")
+    with pytest.raises(InputError, match="would stay warm"):
+        batch(
+            **UNSEEDED | {"temperature_start": "32 degC", "solute_per_solvent": 0.495},
+            seed_mass_per_solvent=0.01,
+            crystal_number_lower="10 1/cm^3",
+            crystal_number_upper="20 1/cm^3",
+        )
+
+
+def test_unit_that_counts_ends_cool_within_its_bounds():
+    run = gr.alone("crystallization.nucleation_controlled_crystallizer").solve()
+    unit = run.units["nucleation_controlled_crystallizer"]
+    figures = unit.values
+    assert 5e7 <= float(figures.crystal_number_end) <= 1e8
+    assert float(figures.heating_number) >= 1.0
+    assert float(figures.time_cooled) < 5.0 * 3600.0
+    assert run.audit["energy_closure"] < 1e-9
+    assert all(check.low <= check.value <= check.high for check in unit.checks)

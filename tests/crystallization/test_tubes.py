@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from math import comb
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
 import granum as gr
+from granum.crystallization.equipment.tubes import stays
 
 LOSS = {"fluid_density": 1200.0, "length": 10.0, "baffle_spacing": 0.03, "baffle_open_area": 0.25}
 FACTOR = (1 / 0.25**2 - 1) / (2 * 0.6**2)
@@ -67,3 +70,36 @@ def test_a_tube_in_a_line_crystallizes_as_plug_flow_and_tells_its_mixing():
     assert unit.values.velocity_ratio_oscillatory == pytest.approx(2 * np.pi * 0.01 / velocity, rel=1e-9)
     assert all(check.low <= check.value <= check.high for check in unit.checks)
     assert run.audit["energy_closure"] < 1e-9
+
+
+@pytest.mark.parametrize("tanks", [3.0, 12.0, 400.0])
+def test_stays_are_those_of_tanks_in_series(tanks):
+    """Gamma distribution: mean 1, variance 1/N, third central moment 2/N²."""
+    times, shares = (np.asarray(v) for v in stays(tanks))
+    assert shares.sum() == pytest.approx(1.0, rel=1e-12)
+    assert shares @ times == pytest.approx(1.0, rel=1e-12)
+    assert shares @ (times - 1.0) ** 2 == pytest.approx(1.0 / tanks, rel=1e-3)
+    assert shares @ (times - 1.0) ** 3 == pytest.approx(2.0 / tanks**2, rel=0.02)
+
+
+def test_spread_stays_spread_the_sizes_and_keep_the_matter():
+    """A few seeds in a liquor that they hardly change grow as they stay: G tau / sqrt(N) is their scatter."""
+
+    def grown(**more):
+        few = {"seed_mass_per_solvent": 1e-12, "seed_width": "0 um", "nucleation": {"law": "no_nucleation"}}
+        held = "{law='power_cooling', temperature_start='31 degC', temperature_end='31 degC', duration='1 h'}"
+        return gr.alone(
+            "crystallization.plug_flow_crystallizer", temperature_program=held, **few, **more
+        ).solve()
+
+    plain, wide = grown(), grown(tank_number_tube=16.0)
+    assert max(wide.audit["energy_closure"], wide.audit["mass_closure"]) < 1e-9
+    one, many = (run.units["plug_flow_crystallizer"] for run in (plain, wide))
+    path = float(one.values.mean_diameter_mass) - 1e-4
+    # D[4,3] of sizes 0.1 mm + path t, t as of 16 tanks, by the moments of the gamma distribution
+    mean = [1.0, 1.0]
+    for k in range(1, 4):
+        mean.append(mean[-1] * (16.0 + k) / 16.0)
+    moment = [sum(comb(n, k) * 1e-4 ** (n - k) * path**k * mean[k] for k in range(n + 1)) for n in (3, 4)]
+    assert float(many.values.mean_diameter_mass) == pytest.approx(moment[1] / moment[0], rel=1e-3)
+    assert float(many.values.nuclei_mass_fraction) == pytest.approx(0.0, abs=1e-12)

@@ -281,6 +281,17 @@ LIQUOR = {
         "temperature": "30 degC",
         "volume": 2.0,
     },
+    "crystallization.nucleation_controlled_crystallizer": GROWTH
+    | {
+        "crystal_number_lower": 1e8,
+        "crystal_number_upper": 1e10,
+        "temperature_end": "30 degC",
+        "cooling_rate": "60 K/h",
+        "cooling_rate_between": "60 K/h",
+        "duration": "1 hour",
+        "seed_mass_per_solvent": 0.01,
+        "dissolution": {"law": "power_law_dissolution", "dissolution_coefficient": "1 mm/s"},
+    },
     "crystallization.oslo_crystallizer": GROWTH
     | {"temperature": "30 degC", "area": 2.0, "height": 1.0, "superficial_velocity": "30 mm/s"},
     "crystallization.plug_flow_crystallizer": GROWTH
@@ -377,6 +388,7 @@ AS_ALONE = (  # with the values with which they open by themselves
     "drying.impingement_dryer",
     "drying.paper_machine",
     "crystallization.layer_melt_crystallizer",
+    "crystallization.suspension_melt_crystallizer",
     "dust.mesh_pad",
     "filtration.belt_press",
     "filtration.reverse_osmosis",

@@ -50,6 +50,9 @@ from granum.crystallization.equipment.boiling import (
 from granum.crystallization.equipment.controlled import (
     ControlledBatchCrystallizer as ControlledBatchCrystallizer,
     ControlledBatchFigures as ControlledBatchFigures,
+    FollowedBatch as FollowedBatch,
+    NucleationControlledCrystallizer as NucleationControlledCrystallizer,
+    NucleationControlledFigures as NucleationControlledFigures,
 )
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
@@ -100,11 +103,19 @@ from granum.crystallization.equipment.stirring import (
     Stirred as Stirred,
     Stirring as Stirring,
 )
+from granum.crystallization.equipment.suspension_melt import (
+    SuspensionMeltCrystallizer as SuspensionMeltCrystallizer,
+    SuspensionMeltFigures as SuspensionMeltFigures,
+    SuspensionMeltOutlets as SuspensionMeltOutlets,
+    Washed as Washed,
+)
 from granum.crystallization.equipment.tubes import (
     BaffledTubeCrystallizer as BaffledTubeCrystallizer,
     BaffledTubeFigures as BaffledTubeFigures,
+    Passed as Passed,
     PlugFlowCrystallizer as PlugFlowCrystallizer,
     PlugFlowFigures as PlugFlowFigures,
+    Spread as Spread,
     Tube as Tube,
 )
 from granum.crystallization.equipment.two_salts import (
@@ -332,6 +343,11 @@ from granum.crystallization.formulas.tubes import (
     oscillatory_flow as oscillatory_flow,
     oscillatory_loss as oscillatory_loss,
 )
+from granum.crystallization.formulas.wash_columns import (
+    WashFront as WashFront,
+    impurity_ratio_wash_column as impurity_ratio_wash_column,
+    wash_front as wash_front,
+)
 from granum.crystallization.lab_tests.batch_kinetics import (
     BatchKinetics as BatchKinetics,
 )
@@ -379,6 +395,7 @@ from granum.crystallization.population.needles import (
 from granum.crystallization.population.operations import (
     Addition as Addition,
     Contents as Contents,
+    Counted as Counted,
     Flashing as Flashing,
     Heat as Heat,
     HeatData as HeatData,
@@ -440,6 +457,7 @@ from granum.crystallization.vessels.dynamic import (
 )
 from granum.crystallization.vessels.held import (
     controlled_batch as controlled_batch,
+    nucleation_controlled_batch as nucleation_controlled_batch,
 )
 from granum.crystallization.vessels.moving import (
     Moving as Moving,

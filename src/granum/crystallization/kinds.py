@@ -11,6 +11,7 @@ from granum.core.kinds import (
     Law,
     MassFraction,
     MolarEnergy,
+    NumberDensity,
     PositiveNumber,
     Volume,
     Within,
@@ -80,6 +81,7 @@ AdsorptionCoefficient = Annotated[
     Any, Kind("Langmuir coefficient", "m^3/mol", lower=0.0, display=("L/mol", "m^3/mol"))
 ]
 InclusionShare = Annotated[Fraction, Within(0.0, 0.5)]  # of a crystal's volume
+CountBound = Annotated[NumberDensity, Within(1.0)]
 ReadingDeviation = Annotated[Fraction, Within(0.0, 0.2)]
 Solubility = Annotated[Any, Law("solubility_law")]
 Growth = Annotated[Any, Law("growth_rate")]

@@ -51,7 +51,7 @@ from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, VesselVolume
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
-from granum.crystallization.population.packets import Seeds
+from granum.crystallization.population.packets import Packets, Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
@@ -152,6 +152,26 @@ class Grown(NamedTuple):
         classes = self.course.final.in_classes(edges)
         return classes * safe_divide(left, jnp.sum(classes), 0.0)
 
+    @property
+    def evaporated(self) -> Any:
+        """Solvent that has left, kg/s."""
+        return self.course.solvent[0] - self.course.solvent[-1]
+
+    @property
+    def temperature(self) -> Any:
+        """At the end, K."""
+        return self.course.temperature[-1]
+
+    @property
+    def final(self) -> Packets:
+        """Crystals at the end, seeds first."""
+        return self.course.final
+
+    @property
+    def parcels(self) -> int:
+        """Parcels with seeds of their own."""
+        return 1
+
 
 class BatchVessel(Unit):
     """What batches share; each says how long it runs and what drives it. Without a law of dissolution,
@@ -205,31 +225,38 @@ class BatchVessel(Unit):
             jnp.append(added.low, low), jnp.append(added.high, high), jnp.append(added.number, number)
         )
 
-    def _grown(self, model: Model, operation: Operation, charge: Stream, found: Roles, solvent: Any) -> Grown:
+    def _grown(
+        self,
+        model: Model,
+        operation: Operation,
+        charge: Stream,
+        found: Roles,
+        solvent: Any,
+        duration: Any = None,
+    ) -> Grown:
         """The batch of a charge, one second of feed, with so much solvent."""
         held, seeds = self._seeding(charge, found)
-        times = jnp.linspace(0.0, self._time(charge), STEPS + 1)
+        times = jnp.linspace(0.0, self._time(charge) if duration is None else duration, STEPS + 1)
         solvent = jnp.where(solvent > 0, solvent, TRICKLE)
         course = march(model, operation, seeds, charge.liquid[found.solute], solvent, times)
         return Grown(course, found, held)
 
     def _product(self, inside: Grown, feed: Stream) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""
-        course, found, _held = inside
-        gone = course.solvent[0] - course.solvent[-1]
+        found, gone = inside.found, inside.evaporated
         solid = with_crystals(feed, found, inside.kept(feed.mixture.edges))
-        return suspension_left(feed, found, solid, gone, course.temperature[-1]), gone
+        return suspension_left(feed, found, solid, gone, inside.temperature), gone
 
     def _figures(self, inside: Grown, product: Stream, feed: Stream) -> tuple[Any, ...]:
         """Crystal flow, yield, magma density, highest supersaturation, D[4,3] and mass share of nuclei."""
-        course, found, _held = inside
+        course, found = inside.course, inside.found
         entering = feed_of(feed, found)
         made = product.solid_by_species[found.solid]
         fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
         _mass, seeds = self._seeding(feed, found)
-        final = course.final
+        final = inside.final
         cubes = final.number * 0.25 * (final.low + final.high) * (final.low**2 + final.high**2)
-        seeded = jnp.sum(cubes[: seeds.low.shape[0]])
+        seeded = jnp.sum(cubes[: inside.parcels * seeds.low.shape[0]])
         return (
             made,
             safe_divide(found.solute_fraction * made, fed),
@@ -252,6 +279,11 @@ class BatchVessel(Unit):
         }
 
 
+def heard(course: Course) -> Contents:
+    """The contents that a vessel had, to be asked once more outside of what is compiled."""
+    return Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent))
+
+
 class ChargedVessel(BatchVessel):
     """A batch to which nothing is added on its way."""
 
@@ -264,10 +296,7 @@ class ChargedVessel(BatchVessel):
         model, operation = self._model(feed, found), self._operation(feed, found, self._time(feed))
         grown = self._grown(model, operation, feed, found, feed.liquid[found.solvent])
         # once more where its flags are heard: inside what is compiled they are lost
-        there = grown.course
-        model.saturated(
-            Contents(there.temperature, there.solute, there.solvent, jnp.zeros_like(there.solvent))
-        )
+        model.saturated(heard(grown.course))
         return grown
 
 

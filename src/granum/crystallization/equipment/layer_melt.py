@@ -175,8 +175,8 @@ class LayerMeltCrystallizer(Unit):
         return LayerFigures(
             outlets.product.liquid_flow,
             safe_divide(outlets.product.liquid[pure], feed.liquid[pure], 0.0),
-            _impurity(outlets.product, pure),
-            _impurity(outlets.residue, pure),
+            impurity_in(outlets.product, pure),
+            impurity_in(outlets.residue, pure),
             inside.effective,
             inside.stage_ratio,
             grown,
@@ -208,5 +208,6 @@ class LayerMeltCrystallizer(Unit):
         )
 
 
-def _impurity(stream: Stream, pure: int) -> Any:
+def impurity_in(stream: Stream, pure: int) -> Any:
+    """Mass fraction of all liquids but one."""
     return safe_divide(stream.liquid_flow - stream.liquid[pure], stream.liquid_flow, 0.0)

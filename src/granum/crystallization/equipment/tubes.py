@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.kinds import (
@@ -17,23 +19,37 @@ from granum.core.kinds import (
     Length,
     MassFlow,
     Number,
+    PositiveNumber,
     Power,
     PressureDrop,
     Ratio,
     SpecificPower,
     Time,
+    Within,
 )
 from granum.core.limits import Limit
-from granum.crystallization.equipment.batch import BatchOutlets, BatchVessel, ChargedVessel, Grown, thermal
-from granum.crystallization.equipment.roles import Roles
+from granum.crystallization.equipment.batch import (
+    BatchOutlets,
+    BatchVessel,
+    ChargedVessel,
+    Grown,
+    heard,
+    thermal,
+)
+from granum.crystallization.equipment.roles import Roles, roles
 from granum.crystallization.formulas.tubes import OrificeArea, oscillatory_flow, oscillatory_loss
 from granum.crystallization.kinds import Program, VesselVolume
+from granum.crystallization.population.lagrangian import Course
 from granum.crystallization.population.operations import Operation, Programmed
+from granum.crystallization.population.packets import Packets
 from granum.numerics.smooth import safe_divide
 from granum.streams.stirrers import slurry_density
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED
+
+PARCELS = 5
+FEWEST_TANKS = 3.0  # below which the cube root of a stay is no longer near normal
 
 
 class PlugFlowFigures(NamedTuple):
@@ -49,10 +65,71 @@ class PlugFlowFigures(NamedTuple):
     heat_duty: Power
 
 
+class Passed(eqx.Module):
+    """A program of the place in the tube, for a parcel that passes it in a multiple of the mean time."""
+
+    program: Any
+    stay: Any
+
+    def __call__(self, time: Any) -> Any:
+        return self.program(time / self.stay)
+
+
+class Spread(NamedTuple):
+    """Parcels of different stays, their shares of the feed, which species plays which part, and the seed held
+    back; it answers for all together what ``Grown`` answers for one.
+    """
+
+    course: Course
+    shares: Any
+    found: Roles
+    held: Any
+
+    def kept(self, edges: Any) -> Any:
+        """Crystals that leave, by size class, kg/s."""
+        one = jax.vmap(lambda course: Grown(course, self.found, self.held).kept(edges))
+        return self.shares @ one(self.course)
+
+    @property
+    def evaporated(self) -> Any:
+        """Nothing leaves a tube as vapor."""
+        return jnp.zeros(())
+
+    @property
+    def temperature(self) -> Any:
+        """At the outlet, K, the same for all parcels."""
+        return self.course.temperature[0, -1]
+
+    @property
+    def final(self) -> Packets:
+        """Crystals of all parcels, the seeds of all first."""
+        low, high, number = self.course.final.low, self.course.final.high, self.course.final.number
+        flat = [jnp.ravel(v.T) for v in (low, high, self.shares[:, None] * number)]
+        return Packets(*flat)
+
+    @property
+    def parcels(self) -> int:
+        """Parcels with seeds of their own."""
+        return PARCELS
+
+
+def stays(tanks: Any) -> tuple[Any, Any]:
+    """Stays over the mean one and their shares: the gamma distribution of tanks in series by the cube of a
+    normal variate (Wilson and Hilferty 1931), in Gauss and Hermite's points.
+    """
+    x, w = np.polynomial.hermite_e.hermegauss(PARCELS)
+    w = w / w.sum()
+    t = (1.0 - 1.0 / (9.0 * tanks) + x / (3.0 * jnp.sqrt(tanks))) ** 3
+    return t / jnp.sum(w * t), jnp.asarray(w)
+
+
 class Tube(ChargedVessel):
     """A tube along which the temperature follows a program of the time since the inlet."""
 
     temperature_program: Program
+    tank_number_tube: Annotated[PositiveNumber, Within(FEWEST_TANKS, 1e6)] | None = eqx.field(
+        kw_only=True, default=None
+    )
 
     @abstractmethod
     def _held(self) -> Any:
@@ -64,13 +141,29 @@ class Tube(ChargedVessel):
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)
 
-    def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
+    def inside(self, feed: Stream) -> Any:
+        if self.tank_number_tube is None:
+            return super().inside(feed)
+        found, mean = roles(feed.mixture, self.solid, self.solvent), self._time(feed)
+        model, solvent = self._model(feed, found), feed.liquid[found.solvent]
+
+        def parcel(stay: Any) -> Course:
+            operation = Programmed(Passed(self.temperature_program, stay))
+            return self._grown(model, operation, feed, found, solvent, stay * mean).course
+
+        times, shares = stays(jnp.asarray(self.tank_number_tube, dtype=float))
+        course = jax.vmap(parcel)(times)
+        model.saturated(heard(course))
+        held, _seeds = self._seeding(feed, found)
+        return Spread(course, shares, found, held)
+
+    def outlets(self, inside: Any, feed: Stream) -> BatchOutlets:
         return self._cooled(inside, feed)
 
 
 @equipment(
     "plug_flow_crystallizer",
-    source="randolph1988, ch. 7; mullin2001, ch. 9",
+    source="randolph1988, ch. 7; mullin2001, ch. 9; wilson1931",
     title="Plug flow crystallizer",
     equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0",
 )
@@ -79,8 +172,10 @@ class PlugFlowCrystallizer(Tube):
     time.
 
     The temperature along the tube is given by a program of the time since the inlet, which should end at the
-    residence time. Backmixing spreads the residence times: a series of mixed vessels then stands for the
-    tube.
+    residence time. Backmixing spreads the stays: with ``tank_number_tube`` they are those of so many mixed
+    tanks in series (half the Péclet number of axial dispersion, nearly), each parcel on its own, slower or
+    faster past the same temperatures; a cascade of a few mixed vessels shares its liquor, which parcels do
+    not.
     """
 
     volume: VesselVolume
@@ -90,12 +185,12 @@ class PlugFlowCrystallizer(Tube):
     def _held(self) -> Any:
         return self.volume
 
-    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
+    def figures(self, inside: Any, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
         figures = self._figures(inside, outlets.product, feed)
         return PlugFlowFigures._make((*figures, self._time(feed), outlets.heat_duty))
 
     def drawn(
-        self, inside: Grown, outlets: BatchOutlets, figures: PlugFlowFigures, feed: Stream
+        self, inside: Any, outlets: BatchOutlets, figures: PlugFlowFigures, feed: Stream
     ) -> dict[str, Any]:
         return thermal(outlets.heat_duty, feed, outlets.product)
 
@@ -123,7 +218,7 @@ class BaffledTubeFigures(NamedTuple):
 
 @equipment(
     "baffled_tube_crystallizer",
-    source="ni1997; stonestreet1999; jealous1955; randolph1988, ch. 7",
+    source="ni1997; stonestreet1999; jealous1955; randolph1988, ch. 7; wilson1931",
     title="Oscillatory baffled tube crystallizer",
     equation=r"\psi = \frac{2\pi f x_0}{U},\quad "
     r"\varepsilon = \frac{1/S^2 - 1}{2 C_d^2\,l}\,\overline{|U + 2\pi f x_0 \sin 2\pi f t|^3}",
@@ -136,7 +231,8 @@ class BaffledTubeCrystallizer(Tube):
     plug flow, which holds where the oscillation is two to four times as fast as the net flow; the checks tell
     where it is not, and where it is too weak to fill the cells with vortices. The power is what the baffles
     take and becomes heat, which is small and left out. The kinetics must be those of this mixing: a baffled
-    tube strikes crystals less than a stirrer.
+    tube strikes crystals less than a stirrer. ``tank_number_tube`` spreads the stays as in
+    ``plug_flow_crystallizer``.
     """
 
     diameter: Length
@@ -160,7 +256,7 @@ class BaffledTubeCrystallizer(Tube):
     def _held(self) -> Any:
         return 0.25 * jnp.pi * self.diameter**2 * self.length
 
-    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> BaffledTubeFigures:
+    def figures(self, inside: Any, outlets: BatchOutlets, feed: Stream) -> BaffledTubeFigures:
         product = outlets.product
         velocity = feed.slurry_volume_flow / (0.25 * jnp.pi * self.diameter**2)
         density = slurry_density(product)
@@ -173,7 +269,7 @@ class BaffledTubeCrystallizer(Tube):
         return BaffledTubeFigures._make((*crystals, self._time(feed), outlets.heat_duty, *groups, *loss))
 
     def measured(
-        self, inside: Grown, outlets: BatchOutlets, figures: BaffledTubeFigures, feed: Stream
+        self, inside: Any, outlets: BatchOutlets, figures: BaffledTubeFigures, feed: Stream
     ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed) | {
             "vortices": figures.reynolds_oscillatory,
@@ -181,7 +277,7 @@ class BaffledTubeCrystallizer(Tube):
         }
 
     def drawn(
-        self, inside: Grown, outlets: BatchOutlets, figures: BaffledTubeFigures, feed: Stream
+        self, inside: Any, outlets: BatchOutlets, figures: BaffledTubeFigures, feed: Stream
     ) -> dict[str, Any]:
         mass = self._held() * slurry_density(outlets.product)
         moved = {"electric_power_agitator": figures.specific_power_input * mass}

@@ -220,10 +220,11 @@ def march(
     def advance(state: _State, given: tuple[Any, Any, Any]) -> tuple[_State, tuple[Any, ...]]:
         start, end, index = given
         span = end - start
+        driven = operation.seeing(state.population.moments())
         before, busy = collided(state.population, state.contents, state.crystals, span)
         population, path, born, residual, there, crystals = react(
             model,
-            operation,
+            driven,
             before,
             state.contents,
             state.crystals,
@@ -233,7 +234,7 @@ def march(
         )
         population, busier = collided(population, there, crystals, span)
         crystals = crystal.mass_per_cube * population.moments()[3]
-        contents = operation.step(state.contents, start, end, state.crystals, crystals)
+        contents = driven.step(state.contents, start, end, state.crystals, crystals)
         ratio, saturated, rate, births = model.conditions(contents, crystals)
         new = _State(population, contents, crystals, ratio, saturated, rate, births, state.path + path)
         out = (

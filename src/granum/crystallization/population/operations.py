@@ -44,6 +44,10 @@ class Operation(eqx.Module):
     def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
         """Contents at the end of a step that leaves a mass of crystals."""
 
+    def seeing(self, moments: Any) -> Operation:
+        """The same over a step that begins with crystals of such moments, where a probe looks at them."""
+        return self
+
 
 class Addition(eqx.Module):
     """What is added or taken off over time: functions of time that give the cumulative mass, kg.
@@ -86,8 +90,8 @@ class Programmed(Operation):
 
 
 class Sensor(eqx.Module):
-    """Concentrations as a sensor reads them: a relative error drawn anew at each reading and kept until the
-    next one.
+    """Concentrations or counts as a sensor reads them: a relative error drawn anew at each reading and kept
+    until the next one.
 
     The draws are the same in every run, so that recipes are compared under equal errors.
     """
@@ -95,11 +99,11 @@ class Sensor(eqx.Module):
     deviation: Any
     interval: Any
 
-    def read(self, ratio: Any, time: Any) -> Any:
-        """What is read of a concentration at a time."""
+    def read(self, true: Any, time: Any) -> Any:
+        """What is read of a true value at a time."""
         draws = np.random.default_rng(1).standard_normal(DRAWS)
         turn = jnp.floor(time / self.interval).astype(int) % DRAWS
-        return ratio * (1.0 + self.deviation * jnp.asarray(draws)[turn])
+        return true * (1.0 + self.deviation * jnp.asarray(draws)[turn])
 
 
 class Held(Operation):
@@ -137,6 +141,43 @@ class Held(Operation):
         for _step in range(NEWTON_STEPS):
             value, slope = jax.jvp(saturated, (T,), (jnp.ones_like(T),))
             T = jnp.clip(T + safe_divide(wanted - value, slope), low, high)
+        return old._replace(temperature=T)
+
+
+class Counted(Operation):
+    """Heating while the crystals in a volume of suspension are more than an upper bound, cooling while they
+    are fewer than a lower one, and more slowly in between.
+
+    Parameters
+    ----------
+    model: of the vessel, which tells the volume. lower, upper: 1/m³. temperature_start, temperature_end: K,
+        between which the temperature stays. cooling, between, heating: K/s. sensor: how crystals are counted;
+        None without error. number: crystals at the start of the step.
+    """
+
+    model: Any
+    lower: Any
+    upper: Any
+    temperature_start: Any
+    temperature_end: Any
+    cooling: Any
+    between: Any
+    heating: Any
+    sensor: Sensor | None = None
+    number: Any = 0.0
+
+    def start(self, solute: Any, solvent: Any) -> Contents:
+        return Contents(jnp.asarray(self.temperature_start, dtype=float), solute, solvent, jnp.zeros(()))
+
+    def seeing(self, moments: Any) -> Counted:
+        return eqx.tree_at(lambda o: o.number, self, moments[0])
+
+    def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
+        count = safe_divide(self.number, self.model.suspension(old, crystals_before), 0.0)
+        read = count if self.sensor is None else self.sensor.read(count, start)
+        cooled = jnp.where(read < self.lower, self.cooling, self.between)
+        rate = jnp.where(read > self.upper, self.heating, -cooled)
+        T = jnp.clip(old.temperature + rate * (end - start), self.temperature_end, self.temperature_start)
         return old._replace(temperature=T)
 
 

@@ -62,7 +62,7 @@ class BatchCourse(NamedTuple):
     mean_diameter: Length
     mass_median_size: Length
     nuclei_mass_fraction: Ratio
-    yield_fraction: Ratio
+    yield_fraction: Number
     step_error: Ratio
 
 
@@ -238,7 +238,7 @@ def course_of(course: Course, seeds: Seeds, ratio: Any, solute_fraction: Any, er
 
 
 def yield_of(course: Course, ratio: Any, solute_fraction: Any) -> float:
-    """Solute crystallized over solute charged."""
+    """Solute crystallized over solute charged; below zero where seeds dissolved."""
     return float(solute_fraction * (course.crystals[-1] - course.crystals[0]) / ratio)
 
 
