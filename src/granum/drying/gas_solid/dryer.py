@@ -158,6 +158,10 @@ class Dryer(Unit):
         """Moisture and temperature through the dryer in steady state, and what leaves it."""
         return self.through(*inlets).profile
 
+    def charged(self, feed: Stream, gas: Stream) -> Stream:
+        """What goes through, ``counted`` as dry matter and water."""
+        return counted(feed)
+
     def inside(self, feed: Stream, gas: Stream, *more: Any, **others: Any) -> Through:
         found = self.through(feed, gas, *more, *others.values())
         solid, card = counted(feed), type(self).card
@@ -435,4 +439,4 @@ def _moisture(name: str, x: Any, dryer: Any, feed: Stream, gas: Stream, gas_velo
     if gas_velocity is not None:
         gas = gas.part(gas=gas_velocity * changed.extent() * gas.gas_density / gas.gas_flow)
     found = jnp.sum(changed.profile(feed, gas).water)
-    return moistened(counted(feed), found, composition(feed)).moisture_dry_basis
+    return moistened(changed.charged(feed, gas), found, composition(feed)).moisture_dry_basis
