@@ -1,4 +1,4 @@
-"""A spray that falls against rising gas: what flies, what is hot where, and closed forms of both directions."""
+"""A spray that falls against rising gas: what flies, what is hot, and closed forms of both directions."""
 
 from __future__ import annotations
 
@@ -140,9 +140,7 @@ def test_sealed_grains_are_a_counter_current_heat_exchanger() -> None:
     speed = fall - float(gas.gas_volume_flow) / (0.25 * np.pi * diameter**2)
     h = (2.0 + 0.6 * np.sqrt(rho * fall * d / mu) * 0.71 ** (1 / 3)) * 0.0275 / d
     UA = h * 6.0 / (density * d) * length / speed
-    cold, hot = (
-        float(s.enthalpy_at(310.0) - s.enthalpy_at(309.0)) for s in (feed, gas)
-    )
+    cold, hot = (float(s.enthalpy_at(310.0) - s.enthalpy_at(309.0)) for s in (feed, gas))
     ratio, NTU = min(cold, hot) / max(cold, hot), UA / min(cold, hot)
     decay = np.exp(-NTU * (1.0 - ratio))
     effectiveness = (1.0 - decay) / (1.0 - ratio * decay)

@@ -93,7 +93,7 @@ class SprayDryer(Dryer):
                 0.0,
                 0.1,
                 "dimensionless",
-                "our own estimate, twice the 45 kg a tonne of detergent powder of ap42_1995, ch. 6.8, recalled",
+                "our own estimate, twice the 45 kg a tonne of ap42_1995, ch. 6.8 (recalled)",
             ),
             "slender": Limit("height over diameter of the chamber", 0.6, 5.0, "dimensionless", "masters1991"),
         }
@@ -182,9 +182,7 @@ class SprayDryer(Dryer):
             return self.dusted(parted(drops, dissolved, gas, inside.profile), inside.profile)
         falling, dust = parted_fines(drops, self.flying(drops, gas))
         made = parted(falling, dissolved, gas, inside.profile)
-        flown, exhaust = dried_on(
-            moistened(dust, dust.liquid[0], dissolved), made.exhaust, self.kinetics
-        )
+        flown, exhaust = dried_on(moistened(dust, dust.liquid[0], dissolved), made.exhaust, self.kinetics)
         return made._replace(exhaust=exhaust + flown)
 
     def entrained(self, product: Stream, exhaust: Stream) -> Any:
@@ -232,13 +230,17 @@ class SprayDryer(Dryer):
         whole = charge(feed, fines)
         blown = outlets.exhaust.solid_flow - gas.solid_flow
         flown = {"flown": safe_divide(blown, blown + outlets.product.solid_flow)} if self.against else {}
-        return super().measured(inside, outlets, figures, whole, gas) | flown | {
-            "inlet": gas.temperature,
-            "outlet": outlets.exhaust.temperature,
-            "time": self.extent() / outlets.exhaust.gas_volume_flow,
-            "capacity": self.hourly(figures),
-            "slender": jnp.asarray(self.length / self.diameter),
-        }
+        return (
+            super().measured(inside, outlets, figures, whole, gas)
+            | flown
+            | {
+                "inlet": gas.temperature,
+                "outlet": outlets.exhaust.temperature,
+                "time": self.extent() / outlets.exhaust.gas_volume_flow,
+                "capacity": self.hourly(figures),
+                "slender": jnp.asarray(self.length / self.diameter),
+            }
+        )
 
     def drawn(
         self,

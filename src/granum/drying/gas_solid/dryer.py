@@ -431,9 +431,7 @@ def sized(
                 "hotter gas."
             )
         best = f"{float(target) * np.exp(last):.4g}"
-        raise ApplicabilityError(
-            told.format(value=shown, name=name, size=f"{np.exp(other):.3g}", best=best)
-        )
+        raise ApplicabilityError(told.format(value=shown, name=name, size=f"{np.exp(other):.3g}", best=best))
     ends = sorted([(size, first), (other, last)])
     known = dict(ends)
     found = scipy.optimize.root_scalar(
