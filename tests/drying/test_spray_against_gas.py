@@ -91,7 +91,7 @@ def test_a_few_drops_in_a_broad_tower_do_not_feel_the_direction() -> None:
     """The gas hardly changes and hardly moves."""
     feed, gas = wet(POWDER, 1e-3, 0.5, 353.0), air(POWDER, 6.5, 0.012, 473.0)
     along, against = (
-        tower(4.0, 40.0, VanMeelKinetics(0.3), gas_direction=way).operate(feed=feed, gas=gas).figures
+        tower(4.0, 200.0, VanMeelKinetics(0.3), gas_direction=way).operate(feed=feed, gas=gas).figures
         for way in ("co-current", "counter-current")
     )
     assert 0.02 < float(along.moisture_dry_basis) < 0.45
