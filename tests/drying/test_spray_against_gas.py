@@ -88,16 +88,16 @@ def test_against_the_gas_the_powder_leaves_hotter_and_the_gas_cooler() -> None:
 
 @pytest.mark.long
 def test_a_few_drops_in_a_broad_tower_do_not_feel_the_direction() -> None:
-    """The gas hardly changes and hardly moves."""
+    """The gas hardly changes and moves with 7 mm/s, a fiftieth of the fall of the finest."""
     feed, gas = wet(POWDER, 1e-3, 0.5, 353.0), air(POWDER, 6.5, 0.012, 473.0)
     along, against = (
-        tower(4.0, 200.0, VanMeelKinetics(0.3), gas_direction=way).operate(feed=feed, gas=gas).figures
+        tower(4.0, 40.0, VanMeelKinetics(0.3), gas_direction=way).operate(feed=feed, gas=gas).figures
         for way in ("co-current", "counter-current")
     )
     assert 0.02 < float(along.moisture_dry_basis) < 0.45
     assert float(against.moisture_dry_basis) == pytest.approx(float(along.moisture_dry_basis), rel=0.02)
     assert float(against.temperature_product) == pytest.approx(float(along.temperature_product), abs=1.0)
-    assert float(against.residence_time) == pytest.approx(float(along.residence_time), rel=0.02)
+    assert float(against.residence_time) == pytest.approx(float(along.residence_time), rel=0.04)
 
 
 class Sealed(AbstractKinetics):
