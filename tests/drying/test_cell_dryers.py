@@ -327,7 +327,7 @@ def test_what_cannot_be_is_said() -> None:
         TunnelDryer.size(0.5, feed, gas, 0.1, 1.0, 20.0, KINETICS, cells=5)
     with pytest.raises(ApplicabilityError, match="more or hotter gas"):
         TunnelDryer.size(0.05, feed, air(ONE, 0.5, 0.01, 330.0), 0.1, 1.0, 20.0, KINETICS, cells=5)
-    with pytest.raises(ApplicabilityError, match="small enough to leave 0.3999 kg/kg"):
+    with pytest.raises(ApplicabilityError, match="small enough"):
         TunnelDryer.size(0.3999, feed, air(ONE, 3.0, 0.01, 450.0), 10.0, 1.0, 20.0, KINETICS, cells=5)
     hot = TunnelDryer(7200.0, 0.1, 1.0, 20.0, KINETICS, temperature_limit=320.0, cells=5)
     little = air(ONE, 20.0, 0.01, 360.0)
