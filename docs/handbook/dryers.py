@@ -197,6 +197,22 @@ def above_glass(gas):
     return float(found.temperature_product) - float(glass)
 
 
+soap = mixture("sodium sulfate anhydrous", *np.geomspace(50e-6, 1.2e-3, 7))
+detergent = d.SprayDryer(
+    "12 m",
+    "6 m",
+    d.GivenDrops("400 um", "40 m/s"),
+    d.VanMeelKinetics(0.25),
+    gas_direction="counter-current",
+    dry_density=700.0,
+    gas_dispersion=3.0,
+    cells=24,
+).operate(
+    feed=wet(soap, 6.0, 0.5, 80.0, (0.1, 0.2, 0.2, 0.2, 0.2, 0.1)),
+    gas=air(soap, 37.0, 300.0, 1.0 / 99.0),
+)
+detergent_dust = float(detergent.outlets.exhaust.solid_flow * 3.6 / 6.0)
+
 # ---- contact
 mash = wet(mixture("starch", 1e-4, 1e-3), 0.06, 4.0, 60.0)
 film = d.DrumDryer(

@@ -66,6 +66,7 @@ def mixture(*sizes: float) -> Any:
 FINE = mixture(*np.geomspace(5e-5, 2e-3, 5))
 MIDDLE = mixture(*np.geomspace(2e-4, 4e-3, 5))
 POWDER = mixture(*np.geomspace(1e-5, 2e-4, 5))
+TOWER = mixture(*np.geomspace(5e-5, 1.5e-3, 7))
 GRAIN = mixture(3e-3, 6e-3)
 FIRED = mixture_of(["water"], SOLIDS, ["dry air", "water", "methane"], [3e-3, 6e-3])
 
@@ -210,6 +211,24 @@ def _spray(x: Any, product: Any, more: Any) -> Setting:
     return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
 
 
+def _tower(x: Any, product: Any, more: Any) -> Setting:
+    """A tower in which 0.2 to 1.5 m/s of gas rise against the spray."""
+    X = between(x[1], 0.3, 4.0)
+    d = duty(TOWER, x, hottest=673.0, X=X)
+    kinetics = product(x[18], x[19], X)
+    diameter = jnp.sqrt(d.gas.gas_volume_flow / between(x[11], 0.2, 1.5) * 4.0 / np.pi)
+    unit = SprayDryer(
+        between(x[12], 5.0, 30.0),
+        diameter,
+        GivenDrops(between(x[13], 1e-4, 8e-4), 5.0 + 50.0 * x[14]),
+        kinetics,
+        dry_density=between(x[15], 400.0, 1400.0),
+        gas_direction="counter-current",
+        cells=30,
+    )
+    return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
+
+
 def _belt(x: Any, product: Any, more: Any) -> Setting:
     d = duty(GRAIN, x, hottest=453.0)
     kinetics = product(x[18], x[19], d.moisture)
@@ -284,6 +303,7 @@ WITH_CELLS: dict[str, Callable[..., Setting]] = {
     "vibrated bed": _vibrated,
     "flash": _flash,
     "spray": _spray,
+    "spray counter-current": _tower,
     "belt": _belt,
     "silo": _silo,
     "rotary counter-current": _rotary("counter-current"),

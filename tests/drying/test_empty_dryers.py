@@ -25,6 +25,9 @@ EMPTY: dict[str, Any] = {
     "tunnel": TunnelDryer(3600.0, 0.5, 1.0, 10.0, KINETICS, heat_loss=LOSS, cells=8),
     "flash": FlashDryer(20.0, 0.5, KINETICS, heat_loss=LOSS, cells=8),
     "spray": SprayDryer(6.0, 3.0, GivenDrops(1e-4), KINETICS, heat_loss=LOSS, cells=8),
+    "spray against the gas": SprayDryer(
+        6.0, 3.0, GivenDrops(1e-4), KINETICS, heat_loss=LOSS, cells=8, gas_direction="counter-current"
+    ),
     "fluidized bed": FluidBedDryer(1.0, 100.0, KINETICS, heat_loss=LOSS),
 }
 
@@ -39,6 +42,16 @@ def test_the_gas_loses_what_the_dryer_loses(name: str) -> None:
     assert float(made.outlets.heat_duty) == pytest.approx(-LOSS, rel=1e-9)
     assert 350.0 - float(made.outlets.exhaust.temperature) == pytest.approx(2.43, abs=0.01)
     assert float(made.outlets.product.mass_flow) == 0.0
+
+
+def test_a_drum_without_solid_is_passed_as_without_gas() -> None:
+    """Friedman and Marshall by hand: 0.23 · 6/(0.04 · 3.82^0.9 · 1.5) minutes; gas had held nothing back for
+    1e12 s.
+    """
+    rpm = 0.4 * 60.0 / (2.0 * jnp.pi)
+    minutes = 0.23 * 6.0 / (0.04 * rpm**0.9 * 1.5)
+    found = EMPTY["rotary, counter-current"].passage(solid(flow=0.0), air(2.0))
+    assert float(found) == pytest.approx(60.0 * float(minutes), rel=1e-9)
 
 
 @pytest.mark.parametrize("cells", [pytest.param(1, marks=pytest.mark.long), 6])

@@ -12,9 +12,13 @@ from granum.core import chart
 from granum.core.i18n import _
 from granum.core.kinds import MoistureDryBasis, Ratio, Series, Temperature
 from granum.drying.gas_solid.cells import Profile
+from granum.drying.gas_solid.matter import Matter
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 
 ZERO = 273.15
+HUMIDITIES = (1.0, 0.5, 0.2, 0.1, 0.05)
+ROOM = 1.15  # over the moistest state
 
 
 def _drawn(x: Any, title: str, x_label: str) -> Any:
@@ -98,6 +102,36 @@ def drawn_profile(found: Profile, time: Any = None) -> Any:
         add_line(
             drawing, x, last.min(axis=1), _("driest part"), color=LIQUID, dash="dashdot", width=1, yaxis="y2"
         )
+    return drawing
+
+
+def drawn_air(found: Profile, feed: Stream, gas: Stream, exhaust: Stream, against: bool) -> Any:
+    """The gas of a dryer among lines of relative humidity from where it enters to where it leaves; None for
+    steam, which has no dry gas to count by.
+    """
+    from granum.core.charts import GAS, INK, add_line, axis_title, faded, figure
+
+    matter, humid = Matter.of(feed, gas), HumidMixture(gas.mixture)
+    if bool(matter.is_steam):
+        return None
+    way = slice(None, None, -1 if against else 1)
+    ends = [(float(s.temperature), float(humid.vapor_per_carrier(s))) for s in (gas, exhaust)]
+    T = np.array([ends[0][0], *np.asarray(found.gas_temperature)[way], ends[1][0]])
+    Y = np.array([ends[0][1], *np.asarray(found.humidity)[way], ends[1][1]])
+    drawing = figure(
+        axis_title("temperature", "degC"), axis_title("humidity_ratio"), title=_("Path of the air in a dryer")
+    )
+    low, high, top = min(T.min(), float(feed.temperature)) - 10.0, T.max() + 10.0, ROOM * Y.max() + 1e-3
+    grid = np.linspace(low, high, 200)
+    share = np.asarray(matter.saturation_pressure(grid) / matter.pressure)
+    for phi in HUMIDITIES:
+        y = np.minimum(phi * share, 0.99)
+        w = float(matter.molar_mass_ratio) * y / (1.0 - y)
+        name = f"{axis_title('relative_humidity')} {phi:.0%}"
+        add_line(drawing, grid[w <= top] - ZERO, w[w <= top], name, color=faded(INK), width=1)
+    add_line(drawing, T - ZERO, Y, _("gas"), color=GAS)
+    drawing.update_xaxes(range=[low - ZERO, high - ZERO])
+    drawing.update_yaxes(range=[0.0, top])
     return drawing
 
 

@@ -53,6 +53,7 @@ class FlashDryer(Dryer):
     entrainment: bool = False
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
+    gas_direction = "co-current"
     dust_dries_on = False  # it has flown with the gas all along
 
     limits: ClassVar[Limits] = (

@@ -131,13 +131,14 @@ class RotaryDryer(CellDryer):
     def passage(self, feed: Stream, gas: Stream) -> Any:
         """Mean time of passage of the solid."""
         against = 1.0 if self.gas_direction == "counter-current" else -1.0
+        blowing = jnp.where(feed.solid_flow > LEAST, gas.gas_flow, 0.0)  # on some solid
         return residence_time_friedman_marshall.function(
             self.length,
             self.diameter,
             self.drum_slope,
             self.rotation_speed,
             solid_diameter(feed),
-            gas.gas_flow / self.section,
+            blowing / self.section,
             jnp.maximum(feed.solid_flow, LEAST) / self.section,
             against,
         )

@@ -24,6 +24,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed, pressure_gradient_shedd
+from granum.drying.gas_solid.cells import Profile
 from granum.drying.gas_solid.column import Zone
 from granum.drying.gas_solid.dryer import NOTES, DryerFigures, Through, ready, sized, warmed
 from granum.drying.gas_solid.kinetics import AbstractKinetics
@@ -137,6 +138,13 @@ class SiloDryer(LayerDryer):
         unsolved(~is_steam(gas), type(self).card, reason=NO_STEAM)
         return _grain(self, feed, gas, cooling)
 
+    def exhausted(self, inside: Through) -> Profile:
+        found = inside.profile
+        if inside.cooling is None:
+            return found
+        vapor, heat = inside.cooling
+        return found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat)
+
     def outlets(
         self, inside: Through, feed: Stream, gas: Stream, cooling: Stream | None = None
     ) -> DriedGrain:
@@ -146,7 +154,7 @@ class SiloDryer(LayerDryer):
             return DriedGrain(product, exhaust, empty(feed.mixture, gas.temperature, gas.pressure), duty)
         assert inside.cooling is not None
         vapor, heat = inside.cooling
-        apart = found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat)
+        apart = self.exhausted(inside)
         product, exhaust, duty = self.dusted(fogged(feed, gas, apart), apart)
         stray = cooling.part(solid=1.0, liquid=1.0)
         air = cooling.replace(gas=cooling.gas.at[HumidMixture(feed.mixture).vapor].set(vapor))

@@ -47,6 +47,7 @@ class Path(NamedTuple):
     solid_density: Any  # of the solid without pores
     liquid_density: Any
     shrinks: bool
+    gas_way: float = 1.0  # −1 for gas that flows against the particles
 
 
 def wet_size(path: Path, X: Any) -> Any:
@@ -106,7 +107,7 @@ def convey(
     Also the dry solid under way, kg.
 
     Without dispersion of the gas every cell depends on the one before alone, and they are solved one after
-    the other.
+    the other. Against gas this is only the guess, the gas of it turned around.
     """
     n, m = path.steps.shape[0], path.dry_size.shape[0]
     dry = matter.humid.carrier_flow(gas)
@@ -135,7 +136,7 @@ def convey(
         X, own, Y = v.lanes[..., 0], v.lanes[..., 2], v.shared[:, :1]
         Tg = matter.gas_temperature(ENTHALPY * v.shared[:, 1:], Y)
         density = matter.gas_density(Tg, Y)
-        gas_speed = dry / (density * path.section)
+        gas_speed = path.gas_way * dry / (density * path.section)
         before = jnp.concatenate([jnp.broadcast_to(first, (1, m)), own[:-1]])
         ends, times = relaxed(
             path,
@@ -172,8 +173,11 @@ def convey(
     states, converged = march(cell, first, lengths, 0.1 * path.steps / fastest, moving)
     # from the dryer without dispersion, its gas mixed with that at the end in proportion
     if not network.one_way:
-        share = 1.0 / (1.0 + network.from_after[0])
-        guess = states._replace(shared=share * states.shared + (1.0 - share) * states.shared[-1])
+        against = path.gas_way < 0.0
+        exchanged = network.from_before[-1] if against else network.from_after[0]
+        share, gas_guess = 1.0 / (1.0 + exchanged), states.shared
+        mixed = share * gas_guess + (1.0 - share) * gas_guess[-1]
+        guess = states._replace(shared=mixed[::-1] if against else mixed)
         found = solve_chain(
             lambda v: rates(v, fresh, start, network, lengths),
             guess,

@@ -129,6 +129,7 @@ class Dryer(Unit):
         @property
         def temperature_limit(self) -> Any: ...
 
+    gas_direction = None  # of gas that flows along the solid or against it
     explosion_vent = None  # of those that have one
     dust_dries_on: ClassVar[bool] = True  # to equilibrium with the exhaust
 
@@ -157,6 +158,10 @@ class Dryer(Unit):
     def profile(self, *inlets: Any) -> Profile:
         """Moisture and temperature through the dryer in steady state, and what leaves it."""
         return self.through(*inlets).profile
+
+    def charged(self, feed: Stream, gas: Stream) -> Stream:
+        """What goes through, ``counted`` as dry matter and water."""
+        return counted(feed)
 
     def inside(self, feed: Stream, gas: Stream, *more: Any, **others: Any) -> Through:
         found = self.through(feed, gas, *more, *others.values())
@@ -223,7 +228,10 @@ class Dryer(Unit):
         dusty = outlets.exhaust.replace(solid=outlets.exhaust.solid + outlets.product.solid)
         found |= vented(dusty, self.explosion_vent, coarse=True)
         if self.temperature_limit is not None:
-            found["hot"] = figures.temperature_product_highest - self.temperature_limit
+            dusty = outlets.exhaust.solid_flow > gas.solid_flow
+            dust = jnp.where(dusty, outlets.exhaust.temperature, 0.0)
+            hottest = jnp.maximum(figures.temperature_product_highest, dust)
+            found["hot"] = hottest - self.temperature_limit
         return found
 
     def drawn(
@@ -242,9 +250,15 @@ class Dryer(Unit):
         return 0.0
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
-        from granum.drying.profile_charts import drawn_profile
+        from granum.drying.profile_charts import drawn_air, drawn_profile
 
-        return {_("Profiles in a dryer"): drawn_profile(made.inside.profile)}
+        found = made.inside.profile
+        drawn = {_("Profiles in a dryer"): drawn_profile(found)}
+        if self.gas_direction is not None:
+            against = self.gas_direction == "counter-current"
+            path = drawn_air(found, inlets["feed"], inlets["gas"], made.outlets.exhaust, against)
+            drawn |= {} if path is None else {_("Path of the air in a dryer"): path}
+        return drawn
 
     def hourly(self, figures: DryerFigures) -> Any:
         """Water evaporated per volume or area and hour, kg."""
@@ -396,26 +410,28 @@ def sized(
             np.log(max(float(_moisture(name, jnp.asarray(x, dtype=float), *given)), 1e-12) / float(target))
         )
 
-    size = float(np.log(getattr(dryer, name)))
+    bounds = np.log(low), np.log(high)
+    size = float(np.clip(np.log(getattr(dryer, name)), *bounds))
     first = last = over(size)
     other = size
     way = np.log(WIDER) if first > 0 else -np.log(WIDER)
-    while last * first > 0 and np.log(low) < other < np.log(high):
-        size, other, first = other, other + way, last
+    while last * first > 0 and other != bounds[int(way > 0)]:
+        size, other, first = other, float(np.clip(other + way, *bounds)), last
         last = over(other)
     if last * first > 0 or not np.isfinite(last):
-        raise ApplicabilityError(
-            _(
-                "The gas cannot dry the product to {value} kg/kg: even a dryer of {name} = {high} "
-                "leaves {best} kg/kg, because the exhaust "
-                "saturates or the gas cools to the solid; take more or hotter gas."
-            ).format(
-                value=shown,
-                name=name,
-                high=f"{np.exp(max(size, other)):.3g}",
-                best=f"{float(target) * np.exp(min(first, last)):.4g}",
+        if last < 0:
+            told = _(
+                "No dryer is small enough to leave {value} kg/kg in the product: already one of {name} = "
+                "{size} dries it to {best} kg/kg; take less or cooler gas."
             )
-        )
+        else:
+            told = _(
+                "The gas cannot dry the product to {value} kg/kg: even a dryer of {name} = {size} leaves "
+                "{best} kg/kg, because the exhaust saturates or the gas cools to the solid; take more or "
+                "hotter gas."
+            )
+        best = f"{float(target) * np.exp(last):.4g}"
+        raise ApplicabilityError(told.format(value=shown, name=name, size=f"{np.exp(other):.3g}", best=best))
     ends = sorted([(size, first), (other, last)])
     known = dict(ends)
     found = scipy.optimize.root_scalar(
@@ -435,4 +451,4 @@ def _moisture(name: str, x: Any, dryer: Any, feed: Stream, gas: Stream, gas_velo
     if gas_velocity is not None:
         gas = gas.part(gas=gas_velocity * changed.extent() * gas.gas_density / gas.gas_flow)
     found = jnp.sum(changed.profile(feed, gas).water)
-    return moistened(counted(feed), found, composition(feed)).moisture_dry_basis
+    return moistened(changed.charged(feed, gas), found, composition(feed)).moisture_dry_basis

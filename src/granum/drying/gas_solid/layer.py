@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from granum.drying.gas_solid.cells import Contact, Network, Profile
 from granum.drying.gas_solid.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
-from granum.drying.gas_solid.dryer import Dried, Dryer, Through, dried, ready, solved
+from granum.drying.gas_solid.dryer import Dried, Dryer, DryerFigures, Through, dried, ready, solved
 from granum.drying.gas_solid.liquor import counted
 from granum.drying.gas_solid.matter import Matter
 from granum.streams.equilibrium import HumidMixture
@@ -64,6 +64,19 @@ class LayerDryer(Dryer):
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
         return self.dusted(fogged(feed, gas, inside.profile), inside.profile)
+
+    def exhausted(self, inside: Through) -> Profile:
+        """The profile with the vapor and enthalpy of the exhaust alone."""
+        return inside.profile
+
+    def figures(
+        self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **others: Any
+    ) -> DryerFigures:
+        """What became fog had evaporated."""
+        found = super().figures(inside, outlets, feed, gas, **others)
+        clear = dried(feed, gas, self.exhausted(inside)).exhaust
+        fog = misty(clear).liquid[0] - clear.liquid[0]
+        return found._replace(evaporation_rate=found.evaporation_rate + fog)
 
 
 def fogged(feed: Stream, gas: Stream, found: Profile) -> Dried:
