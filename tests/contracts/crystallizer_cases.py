@@ -7,8 +7,8 @@ from typing import Any
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from tests.contracts.unit_cases import _solution, crystallizers
 from tests.contracts.unit_search import Case, shares
+from tests.contracts.vessel_cases import crystallizers, solution
 
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer,
@@ -119,7 +119,7 @@ def mixed(classes: int) -> dict[str, Case]:
             law = PowerLawDissolution(10.0 ** (-6.0 + 3.0 * u[4]))
             return eqx.tree_at(lambda x: x.dissolution, made, law, is_leaf=lambda x: x is None)
 
-        return Case(nitrate, _solution, unit)
+        return Case(nitrate, solution, unit)
 
     def spread(f: Any, u: Any) -> Any:
         made = plain["tube"].unit(f, u)
@@ -128,14 +128,14 @@ def mixed(classes: int) -> dict[str, Case]:
         )
 
     return {
-        "tube with spread stays": Case(nitrate, _solution, spread),
+        "tube with spread stays": Case(nitrate, solution, spread),
         "batch that dissolves": dissolving("batch"),
         "jacketed that dissolves": dissolving("jacketed"),
         "vacuum batch that dissolves": dissolving("vacuum batch"),
         "tube that dissolves": dissolving("tube"),
         "counted": Case(
             nitrate,
-            _solution,
+            solution,
             lambda f, u: NucleationControlledCrystallizer(
                 10.0 ** (6.0 + 3.0 * u[5]),
                 10.0 ** (6.0 + 3.0 * u[5]) * (1.5 + 10.0 * u[3]),

@@ -16,7 +16,14 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from tests.contracts import crystallizer_cases, evaporator_cases, membrane_cases, separator_cases, unit_cases
+from tests.contracts import (
+    crystallizer_cases,
+    evaporator_cases,
+    membrane_cases,
+    separator_cases,
+    unit_cases,
+    vessel_cases,
+)
 from tests.contracts.unit_search import FEED, OWN, QUICK, THERE, Case, present, rows
 from tests.sharing.samples import SAMPLES
 
@@ -60,7 +67,7 @@ GROUPS = (
     unit_cases.filters,
     unit_cases.centrifuges,
     unit_cases.basics,
-    unit_cases.crystallizers,
+    vessel_cases.crystallizers,
     evaporator_cases.evaporators,
     membrane_cases.membranes,
     crystallizer_cases.mixed,

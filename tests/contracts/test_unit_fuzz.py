@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.contracts import crystallizer_cases, evaporator_cases, membrane_cases, unit_cases
+from tests.contracts import crystallizer_cases, evaporator_cases, membrane_cases, unit_cases, vessel_cases
 from tests.contracts.unit_search import EMPTY, Case, Tried, disordered, rows, tried, wrong
 from tests.sharing.samples import SAMPLES
 
@@ -18,7 +18,7 @@ GROUPS = {
     "filters": unit_cases.filters,
     "centrifuges": unit_cases.centrifuges,
     "basics": unit_cases.basics,
-    "crystallizers": unit_cases.crystallizers,
+    "crystallizers": vessel_cases.crystallizers,
     "evaporators": evaporator_cases.evaporators,
     "mixed": crystallizer_cases.mixed,
     "membranes": membrane_cases.membranes,

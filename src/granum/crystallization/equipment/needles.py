@@ -89,9 +89,9 @@ def _entering(feed: Stream, found: Roles, aspect_ratio: Any, volume_shape_factor
     if position:
         ratios = jnp.asarray(np.where(edges[:-1] > 0, np.sqrt(edges[:-1] * edges[1:]), 0.5 * edges[1:]))
     number = by_class.reshape(low.shape[0], -1) / (density * np.pi / 6.0 * mean_power(low, high, 3))[:, None]
-    repeated = [jnp.repeat(ends, ratios.shape[0]) for ends in (low, high)]
-    seeds = Seeds(*repeated, number.reshape(-1))
-    return prisms(seeds, jnp.tile(ratios, low.shape[0]), volume_shape_factor)
+    low, high = (jnp.repeat(ends, ratios.shape[0]) for ends in (low, high))
+    seeds = Seeds(low, high, number.reshape(-1))
+    return prisms(seeds, jnp.tile(ratios, by_class.shape[0]), volume_shape_factor)
 
 
 def _leaving(feed: Stream, found: Roles, lines: Lines, volume_shape_factor: Any, mass: Any) -> Any:

@@ -104,8 +104,8 @@ class Spread(NamedTuple):
     def final(self) -> Packets:
         """Crystals of all parcels, the seeds of all first."""
         low, high, number = self.course.final.low, self.course.final.high, self.course.final.number
-        flat = [jnp.ravel(v.T) for v in (low, high, self.shares[:, None] * number)]
-        return Packets(*flat)
+        low, high, number = (jnp.ravel(v.T) for v in (low, high, self.shares[:, None] * number))
+        return Packets(low, high, number)
 
     @property
     def parcels(self) -> int:

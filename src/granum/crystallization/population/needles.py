@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from math import comb
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -69,10 +69,8 @@ class Lines(eqx.Module):
     wider: Any
     number: Any
 
-    @property
-    @abstractmethod
-    def end(self) -> float:
-        """Parameter at which a line ends."""
+    end: ClassVar[float]
+    """Parameter at which a line ends."""
 
     @abstractmethod
     def nodes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -153,7 +151,7 @@ class Segments(Lines):
     or a class of seeds of one aspect ratio.
     """
 
-    end = 1.0
+    end: ClassVar[float] = 1.0
 
     def nodes(self) -> tuple[np.ndarray, np.ndarray]:
         nodes, weights = np.polynomial.legendre.leggauss(4)
@@ -174,7 +172,7 @@ class Aged(Lines):
     the residence time.
     """
 
-    end = OLDEST
+    end: ClassVar[float] = OLDEST
 
     def nodes(self) -> tuple[np.ndarray, np.ndarray]:
         return np.polynomial.laguerre.laggauss(4)

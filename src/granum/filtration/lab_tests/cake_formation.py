@@ -88,7 +88,7 @@ class CakeFormationTest(LabTest):
 
         def whole(p: dict[str, Any], t: Any) -> Any:
             standard = p["standard_cake_formation_time"]
-            thin = p.get("cake_thickness_medium", known)
+            thin: Any = p.get("cake_thickness_medium", known)
             G = (CENTIMETER**2 + 2.0 * CENTIMETER * thin) / standard * harder ** (1.0 - n)
             medium = thin * harder**-n
             # √(Z_m² + G t) − Z_m without cancellation
