@@ -117,6 +117,11 @@ def test_a_fit_is_asked_once_for_a_text_that_is_understood_late(page: Page) -> N
     assert values(page)["area"].split()[0].replace(",", ".") == "0.05"
 
 
+def number(page: Page, place: str) -> str:
+    """What a field holds; a machine so slow that a text is taken before its field is left keeps its comma."""
+    return page.one(place).get_attribute("value").replace(",", ".")
+
+
 def test_two_fields_of_a_line_are_two_steps(page: Page) -> None:
     page.open("lines/examples:cyclone/pair.toml")
     page.until(lambda: page.all("[data-streams]"))
@@ -128,12 +133,12 @@ def test_two_fields_of_a_line_are_two_steps(page: Page) -> None:
     typed(page, other, "0,62 m").send_keys(Keys.TAB)
     rest(page, 2500)
     assert asked(page, "/api/case/edit") == 2
-    assert [page.one(place).get_attribute("value") for place in (one, other)] == ["0.61", "0.62"]
+    assert [number(page, place) for place in (one, other)] == ["0.61", "0.62"]
     assert not page.all("[data-old]")
     page.button("Undo").click()
     rest(page, 600)
-    assert page.one(one).get_attribute("value") == "0.61"
-    assert page.one(other).get_attribute("value") != "0.62"
+    assert number(page, one) == "0.61"
+    assert number(page, other) != "0.62"
 
 
 def test_answers_are_held_while_an_exam_is_marked(page: Page) -> None:
