@@ -64,6 +64,7 @@ def test_a_slow_stirrer_lets_crystals_lie(tmp_path: Path) -> None:
     assert powers[1] / powers[0] == pytest.approx(4.0**3, rel=1e-6)
 
 
+@pytest.mark.long
 def test_the_stirrer_gives_the_coefficient_of_the_wall(tmp_path: Path) -> None:
     """Twice the speed lets 2^(2/3) as much heat through the film; other blades, other factors."""
     inside = "heat_transfer_coefficient_inside = 900\n"

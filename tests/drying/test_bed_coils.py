@@ -41,6 +41,7 @@ def test_coils_give_their_heat_at_the_difference_of_temperatures(cells: int) -> 
     assert float(least) * 0.999 <= float(found.area_coil) <= float(most) * 1.001
 
 
+@pytest.mark.long
 def test_too_much_heat_finds_no_room_and_cold_steam_is_told() -> None:
     assert checked(bed(5e4), "area of the coils").ok
     assert checked(bed(5e4), "steam in the coils").ok

@@ -32,7 +32,12 @@ EMPTY: dict[str, Any] = {
 }
 
 
-@pytest.mark.parametrize("name", EMPTY)
+OFTEN = ("tunnel", "flash")  # a chain of cells and one that is conveyed; the others once a night
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in OFTEN else pytest.mark.long) for name in EMPTY]
+)
 def test_the_gas_loses_what_the_dryer_loses(name: str) -> None:
     """By hand: 5 kW off 2 kg/s of dry air with 0.01 of vapor, 1.008 and 1.87 kJ/(kg K): 2.43 K."""
     feed, gas = solid(flow=0.0), air(2.0)

@@ -177,6 +177,7 @@ def test_second_order_in_time() -> None:
     assert 3.0 < (a - b) / (b - c) < 5.5
 
 
+@pytest.mark.long
 def test_derivative_and_batch() -> None:
     def leaves(units):
         return contact(10, Network.counter_current(10), units).steady(INLET).moisture[-1, 0]

@@ -89,6 +89,7 @@ def test_cooling_takes_the_hours_of_farms_and_the_water_of_farms() -> None:
     assert lost / fallen == pytest.approx(0.0025 / (10.0 / 1.8), rel=0.25)
 
 
+@pytest.mark.long
 def test_the_layers_end_where_the_fronts_end() -> None:
     """Behind both fronts the grain is at the temperature and moisture of the air; after half the time of the
     cooling front half of the bin is cold.

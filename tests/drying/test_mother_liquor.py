@@ -35,7 +35,7 @@ def cake(crystals: float, water: float) -> Stream:
     return empty(SALT, 298.15).replace(solid=solid, liquid=water * jnp.array([1.0, DISSOLVED]))
 
 
-@pytest.mark.parametrize("name", DRYERS)
+@pytest.mark.parametrize("name", ["belt", pytest.param("rotary", marks=pytest.mark.long)])
 def test_what_was_dissolved_stays_on_the_crystals(name: str) -> None:
     dryer, flow = DRYERS[name]
     feed, gas = cake(0.3, 0.02), empty(SALT, 400.0).replace(gas=flow * jnp.array([1.0, 0.01]))
@@ -81,7 +81,7 @@ EPSOM = mixture_of(
 SHARE = 120.366 / 246.474  # of the heptahydrate that is magnesium sulfate, by atomic masses
 
 
-@pytest.mark.parametrize("name", DRYERS)
+@pytest.mark.parametrize("name", ["rotary", pytest.param("belt", marks=pytest.mark.long)])
 def test_a_hydrate_keeps_its_water_of_crystallization(name: str) -> None:
     """Of 20 g of water with 36 % of salt on it, 7.6 g go into crystals and cannot leave."""
     dryer, flow = DRYERS[name]

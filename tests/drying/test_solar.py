@@ -178,6 +178,7 @@ def test_a_hundred_solar_dryers_keep_their_books() -> None:
     assert np.all(wetter < 1e-9)
 
 
+@pytest.mark.long
 def test_steam_is_refused_and_scorched_product_is_told() -> None:
     with pytest.raises(ConvergenceError, match="not blown with steam"):
         alone(

@@ -31,6 +31,7 @@ def checked(made, words: str):
     return found
 
 
+@pytest.mark.long
 def test_moisture_that_diffuses_leaves_as_from_a_well_mixed_vessel() -> None:
     """Of first order in the moisture, with the gas so dry and hot that the film does not count: one over one
     plus rate and time, the mean over exponential residence times (Becker and Sallans for their first term).

@@ -30,6 +30,7 @@ def checked(made, words: str):
     return found
 
 
+@pytest.mark.long
 def test_the_weir_keeps_the_solid_or_the_throw_carries_it() -> None:
     bulk = 0.55 * float(FEED.solid_density)
     kept = bed(0.1).figures

@@ -118,6 +118,7 @@ def test_thick_boards_take_nearly_the_square_and_hot_schedules_less() -> None:
     assert days(diffusivity_preexponential=2.0 * 19.2e-4) < 0.6 * days()
 
 
+@pytest.mark.long
 def test_a_hundred_charges_keep_their_books() -> None:
     """Water and heat close; wetter and thicker boards take longer; the core ends no drier than the mean,
     nor the surface wetter.

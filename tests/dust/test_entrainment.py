@@ -24,10 +24,11 @@ def dusting(name: str):
     return build
 
 
-OTHERS = ("long bed", "flash", "rotary counter-current", "rotary co-current", "silo")
+DUSTY = ("spray", "long bed", "flash", "rotary counter-current", "rotary co-current", "silo")
 
 
-@pytest.mark.parametrize("name", ["spray", *(pytest.param(n, marks=pytest.mark.long) for n in OTHERS)])
+@pytest.mark.long
+@pytest.mark.parametrize("name", DUSTY)
 def test_random_settings_close_with_dust(name: str) -> None:
     lost, bad, rows = outcome("", dusting(name), "surface", 100)
     unasked = {"saturation"} | ({"drier than equilibrium"} if name == "flash" else set())  # all of it flies

@@ -239,6 +239,7 @@ def test_nitrogen_with_too_much_air_does_not_inert() -> None:
     assert set(explosible(air)) == {"explosible"}
 
 
+@pytest.mark.long
 def test_dryers_say_what_vent_their_dust_asks_for() -> None:
     """The same area by the same standard, whether or not the exhaust carries fines."""
     from tests.dust.test_fines import KINETICS, MADE, air, solid

@@ -63,6 +63,7 @@ def test_isotherms_at_their_ends() -> None:
     assert float(freundlich(0.0)) == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.long
 def test_intervals_of_the_test_hold_the_truth() -> None:
     """Two hundred laboratories with 3 % scatter; expected 95 %."""
     rng, law = np.random.default_rng(7), FreundlichIsotherm(0.026, 0.44)

@@ -26,6 +26,14 @@ GUIDES = {
     "guides/in-a-class": "fr/en-classe",
     "guides/laws-of-your-own": "fr/lois-personnelles",
 }
+# long ones whose English twins show the same
+TWINS = (
+    "fr/du-laboratoire-a-l-usine",
+    "fr/dans-une-usine",
+    "fr/lire-l-audit",
+    "fr/de-l-incertitude-a-la-decision",
+    "fr/ligne-a-recyclage",
+)
 PAGES = [(code, name) for pair in GUIDES.items() for code, name in zip(("en", "fr"), pair, strict=True)]
 
 
@@ -51,7 +59,10 @@ def followed(page: str, language: str, folder: Path, patch: pytest.MonkeyPatch) 
     return Reader(folder, language).follow(page)
 
 
-@pytest.mark.parametrize(("language", "name"), PAGES, ids=[name for _code, name in PAGES])
+@pytest.mark.parametrize(
+    ("language", "name"),
+    [pytest.param(*page, marks=pytest.mark.long if page[1] in TWINS else (), id=page[1]) for page in PAGES],
+)
 def test_a_reader_sees_what_the_guide_shows(
     language: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

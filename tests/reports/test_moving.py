@@ -35,6 +35,7 @@ def weights() -> dict[str, int]:
     }
 
 
+@pytest.mark.long
 def test_pages_stay_light_and_show_the_same_in_both_languages(weights: dict[str, int]) -> None:
     shown = set()
     for page in sorted((DOCS / "handbook").glob("*.md")):
