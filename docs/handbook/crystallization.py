@@ -195,7 +195,7 @@ needles = {
     .values
     for time in ("6 hour", "30 min")
 }
-slow, fast = needles["6 hour"], needles["30 min"]
+patient, hasty = needles["6 hour"], needles["30 min"]
 steady = alone("crystallization.needle_crystallizer").solve().units["needle_crystallizer"].values
 
 # ---- wall
