@@ -65,8 +65,8 @@ length = float(growth.value) * 3.38 * 3600
 median = c.mass_median_size(growth.value, "3.38 hour")
 small = c.undersize_mass_fraction(0.5 * float(median), growth.value, "3.38 hour")
 volume_for_half = 1.5**5  # the inverse of τ to the power 1/5
-kept = 0.1  # of the nuclei, when fines are dissolved
-with_fines_dissolved = kept ** (-1 / (2 + 3))
+spared = 0.1  # of the nuclei, when fines are dissolved
+with_fines_dissolved = spared ** (-1 / (2 + 3))
 volume_instead = float(c.dominant_size_changed(1.0, 10.0, 1.0, 2))
 density_line = fit["magma_density"]
 
@@ -195,7 +195,7 @@ needles = {
     .values
     for time in ("6 hour", "30 min")
 }
-patient, hasty = needles["6 hour"], needles["30 min"]
+stout, slender = needles["6 hour"], needles["30 min"]
 steady = alone("crystallization.needle_crystallizer").solve().units["needle_crystallizer"].values
 
 # ---- wall

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +36,22 @@ def chapters(monkeypatch: pytest.MonkeyPatch) -> Any:
 def test_both_languages_state_the_same(domain: str, chapters: Any) -> None:
     said = [sorted(m[1] for m in STATED.finditer(chapters.chapter_text(domain, c))) for c in ("en", "fr")]
     assert said[0] == said[1]
+
+
+@pytest.mark.parametrize("domain", DOMAINS)
+def test_what_is_stated_is_calculated_in_one_place(domain: str, chapters: Any) -> None:
+    """A name given twice would state what was meant for another section."""
+    given = Counter(
+        name.id
+        for statement in ast.parse((DOCS / "handbook" / f"{domain}.py").read_text(encoding="utf-8")).body
+        if isinstance(statement, ast.Assign | ast.AnnAssign)
+        for target in (statement.targets if isinstance(statement, ast.Assign) else [statement.target])
+        for name in ast.walk(target)
+        if isinstance(name, ast.Name)
+    )
+    stated = {m[1] for m in STATED.finditer(chapters.chapter_text(domain, "en"))}
+    asked = {name.id for text in stated for name in ast.walk(ast.parse(text)) if isinstance(name, ast.Name)}
+    assert not [name for name in asked if given[name] > 1]
 
 
 @pytest.mark.long  # the strict build of the documentation asks the same of every chapter
