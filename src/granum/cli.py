@@ -228,7 +228,7 @@ def run(
     as_json: Json = False,
     report: Annotated[Path | None, typer.Option(help="Write an HTML report.")] = None,
     tables: Annotated[
-        Path | None, typer.Option(help="Write streams, results, specifications and checks as .csv or .xlsx.")
+        Path | None, typer.Option(help="Write streams, sizes, results and checks as .csv or .xlsx.")
     ] = None,
     minutes: Annotated[float, typer.Option(min=0.01, help="The most time to spend on solving.")] = 15.0,
     partial: Annotated[

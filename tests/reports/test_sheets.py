@@ -21,7 +21,7 @@ def sized() -> Run:
 def test_workbook_holds_what_specifications_found_and_the_checks(sized: Run, tmp_path: Path) -> None:
     sized.tables(tmp_path / "line.xlsx")
     sheets = pd.read_excel(tmp_path / "line.xlsx", sheet_name=None)
-    assert list(sheets) == ["streams", "results", "specifications", "checks", "utilities"]
+    assert list(sheets) == ["streams", "sizes", "results", "specifications", "checks", "utilities"]
     (found,) = sheets["specifications"].to_dict("records")
     assert (found["unit"], found["input"]) == ("press", "area")
     assert found["value"] == pytest.approx(sized.found["press.area"])
