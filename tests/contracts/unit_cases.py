@@ -363,7 +363,7 @@ def filters(classes: int) -> dict[str, Case]:
             alone,
             lambda f, u: ThickeningFilter(
                 *_cake(f, u),
-                0.03 + 0.3 * u[5],
+                (0.1 + 0.85 * u[5]) * (1.0 - _cake(f, u)[-1]),
                 medium_resistance=10.0 ** (9.0 + 2.0 * u[4]),
                 compressibility=0.9 * u[5],
                 solids_recovery=0.9 + 0.1 * u[4],

@@ -136,3 +136,8 @@ def test_sized_for_a_share_of_its_capacity():
 def test_pulses_that_take_everything_back():
     with pytest.raises(ConvergenceError, match="take back all the filtrate"):
         gr.alone(KEY, filtration_time=5.0, backwash_volume_per_area="200 L/m2").solve()
+
+
+def test_what_is_thicker_than_a_packed_cake_is_no_slurry():
+    with pytest.raises(ConvergenceError, match="thicker than a packed cake"):
+        gr.alone(KEY, solids_volume_fraction_thickened="50 %").solve()

@@ -47,6 +47,7 @@ SWALLOWED = (
     "The pulses take back all the filtrate that is made between them: filter longer, push back less, or give "
     "more pressure or an opener medium."
 )
+PACKED = "The slurry wanted is thicker than a packed cake: ask for less, or give a denser cake."
 
 
 class Thickened(NamedTuple):
@@ -152,6 +153,7 @@ class ThickeningFilter(Unit):
     def inside(self, feed: Stream) -> Pulsed:
         solid, liquid = self.split(feed)
         packed = 1.0 - self.void_fraction
+        unsolved(self.solids_volume_fraction_thickened < packed, type(self).card, reason=PACKED)
         around = (
             feed.solids_volume_fraction
             if self.vessel_contents == "feed"
