@@ -20,7 +20,7 @@ from granum.flowsheet.labelled import stream_dataset
 from granum.flowsheet.passing import Made, pass_through, told
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.solving import TOLERANCE, _pack, _unpack, solve
+from granum.flowsheet.solving import TOLERANCE, pack, solve, unpack
 from granum.numerics import settle
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Dynamic, Operated
@@ -283,17 +283,22 @@ def _instant(
 
             def unpacked(vector: Any, guess: dict[str, Stream] = guess) -> dict[str, Stream]:
                 rows = vector.reshape(len(guess), -1)
-                return {
-                    n: _unpack(rows[i], s.mixture, s.pressure, scale)
-                    for i, (n, s) in enumerate(guess.items())
-                }
+                return {n: unpack(rows[i], s.mixture, scale) for i, (n, s) in enumerate(guess.items())}
 
-            def once(vector: Any, block: Block = block, unpacked: Any = unpacked) -> tuple[Any, _Step]:
+            def once(
+                vector: Any,
+                block: Block = block,
+                unpacked: Any = unpacked,
+                guess: dict[str, Stream] = guess,
+            ) -> tuple[Any, _Step]:
                 now = one_pass(block, found.streams | unpacked(vector))
-                return jnp.concatenate([_pack(now.made.streams[n], scale) for n in block.tears]), now
+                rows = [
+                    pack(now.made.streams[n].replace(pressure=s.pressure), scale) for n, s in guess.items()
+                ]
+                return jnp.concatenate(rows), now
 
             solved = settle(
-                once, jnp.concatenate([_pack(s, scale) for s in guess.values()]), tolerance=1e2 * TOLERANCE
+                once, jnp.concatenate([pack(s, scale) for s in guess.values()]), tolerance=1e2 * TOLERANCE
             )
             now = solved.made
             now.made.streams.update(unpacked(solved.state))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -54,13 +54,18 @@ WIDEST = 400
 
 
 class Beginning(NamedTuple):
-    """Where the search for a solution begins: torn streams, values to be found, and what was learned on the
-    way to an earlier one by a solver for neighbors, if there is one.
+    """Where the search for a solution begins: torn streams, values to be found, how pressures of torn streams
+    were come by, and what a solver for neighbors learned on the way to an earlier one, if there is one.
     """
 
     torn: dict[str, Stream]
     near: dict[str, Any]
+    carried: Mapping[str, Any]
     learned: tuple[Any, ...] = ()
+
+    def how(self) -> dict[str, Any]:
+        """For ``design``."""
+        return {"start": self.torn, "near": self.near, "carried": self.carried}
 
 
 def beginning(
@@ -76,12 +81,15 @@ def beginning(
     if left is not None:
         streams, known = left.solution.streams, left.solution.known
         learned = neighbor(sheet, known, *asked) if learns else ()
-        return Beginning({name: streams[name] for name in torn}, dict(left.values), learned)
+        return Beginning(
+            {name: streams[name] for name in torn}, dict(left.values), left.solution.carried, learned
+        )
     nothing = no_stream(sheet)
     own = {t.vary: given_value(sheet, t.vary) for t in targets}
     return Beginning(
         dict.fromkeys(torn, nothing),
         {name: np.asarray(np.nan if value is None else value, float) for name, value in own.items()},
+        dict.fromkeys(torn, np.zeros(())),
         nothing_known(sheet, ALONG_CHORDS["method"], *asked) if learns else (),
     )
 
@@ -94,10 +102,10 @@ def at_rung(
     """
     if rung == 0:
         given = begin or beginning(sheet, targets)
-        how = ALONG_CHORDS | {"known": given.learned} if given.learned else {}
-        return design(sheet, targets, sheets=True, start=given.torn, near=given.near, **how)
+        along = ALONG_CHORDS | {"known": given.learned} if given.learned else {}
+        return design(sheet, targets, sheets=True, **given.how(), **along)
     left = beginning(sheet, targets, design(sheet, targets, max_steps=QUICK * (1 + len(targets))))
-    return design(sheet, targets, sheets=True, start=left.torn, near=left.near, **EXACT)
+    return design(sheet, targets, sheets=True, **left.how(), **EXACT)
 
 
 def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Tried:
@@ -117,8 +125,7 @@ def _exactly(
     sheet: Flowsheet, targets: tuple[Target, ...], passes: Any, known: tuple[Any, ...], begin: Beginning
 ) -> Tried:
     """The same with exact derivatives, from where another solver has left the line."""
-    how = EXACT | {"max_steps": passes}
-    return _measured(sheet, targets, start=begin.torn, near=begin.near, known=known, **how)
+    return _measured(sheet, targets, known=known, **begin.how(), **EXACT | {"max_steps": passes})
 
 
 @compiled

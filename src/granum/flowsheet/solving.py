@@ -14,12 +14,14 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
+from granum.flowsheet import returning
 from granum.flowsheet.passing import Made, is_known, known_or, pass_through, where
 from granum.flowsheet.plan import Block
+from granum.flowsheet.returning import Loop
 from granum.flowsheet.sheet import Flowsheet
 from granum.numerics import Anderson, Chords, Continuation, Seeking, Settled, settle
 from granum.numerics.fixed_points import largest
-from granum.numerics.settled import again, knowledge
+from granum.numerics.settled import Turns, again, knowledge
 from granum.streams import audit
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
@@ -27,6 +29,7 @@ from granum.streams.stream import Stream, empty
 from granum.streams.units import Operated, Sheet
 
 TEMPERATURE_SCALE = 100.0  # K: brings the temperature of a torn stream to the size of the scaled flows
+PRESSURE_SCALE = 2.0**17  # Pa: the same for its pressure, exactly
 TOLERANCE = 1e-12
 MISSES = 1e-2  # what a wanted figure may miss is so much more than what a torn stream may
 NEARLY = 1e-5  # a loop so near to rest is not what is wrong when a figure cannot be had
@@ -49,6 +52,7 @@ class Solution(NamedTuple):
     sheets: figures, checks and utilities of each unit, when asked for.
     met: whether what was wanted was found as well. sought: the parameters found, each within 0 … 1.
     known: all that the solver of each loop knows, to go on from there.
+    carried: how the pressure of each torn stream was come by, see ``returning``.
     """
 
     streams: dict[str, Stream]
@@ -61,20 +65,25 @@ class Solution(NamedTuple):
     met: Any = True
     sought: Any = None
     known: tuple[Any, ...] = ()
+    carried: Mapping[str, Any] = {}
 
 
-def _pack(stream: Stream, scale: Any) -> Any:
+def pack(stream: Stream, scale: Any) -> Any:
+    """Flows, temperature and pressure of a torn stream as a vector of numbers of about one."""
     flows = jnp.concatenate([jnp.ravel(stream.solid), stream.liquid, stream.gas]) / scale
-    return jnp.concatenate([flows, jnp.reshape(stream.temperature / TEMPERATURE_SCALE, (1,))])
+    state = [stream.temperature / TEMPERATURE_SCALE, stream.pressure / PRESSURE_SCALE]
+    return jnp.concatenate([flows, jnp.stack([jnp.asarray(x, dtype=float) for x in state])])
 
 
-def _unpack(vector: Any, mixture: Mixture, pressure: Any, scale: Any) -> Stream:
+def unpack(vector: Any, mixture: Mixture, scale: Any) -> Stream:
+    """The stream again."""
     shape = mixture.solid_shape
     count = 1
     for n in shape:
         count *= n
-    solid, liquid, gas = jnp.split(vector[:-1] * scale, [count, count + len(mixture.liquids)])
-    return Stream(solid.reshape(shape), liquid, gas, vector[-1] * TEMPERATURE_SCALE, pressure, mixture)
+    solid, liquid, gas = jnp.split(vector[:-2] * scale, [count, count + len(mixture.liquids)])
+    temperature, pressure = vector[-2] * TEMPERATURE_SCALE, vector[-1] * PRESSURE_SCALE
+    return Stream(solid.reshape(shape), liquid, gas, temperature, pressure, mixture)
 
 
 def _run_loop(
@@ -88,6 +97,7 @@ def _run_loop(
     method: Method,
     max_steps: int,
     known: Any,
+    carried: Mapping[str, Any],
 ) -> tuple[Made, Settled, Any]:
     """A loop, solved, with what is wanted of it. Last the residuals: of each torn stream, and of what is
     wanted.
@@ -98,13 +108,11 @@ def _run_loop(
     guess = {n: known_or(s, nothing) for n, s in guess.items()}
     begun = jnp.zeros((0,)) if wanted is None else jnp.asarray(wanted.start, dtype=float)
 
+    loop = _loop(line, block)
+
     def torn(vector: Any) -> dict[str, Stream]:
-        if not block.tears:
-            return {}
-        rows = vector[: vector.size - begun.size].reshape(len(block.tears), -1)
-        return {
-            n: _unpack(rows[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(block.tears)
-        }
+        rows = vector[: loop.count * loop.row].reshape(loop.count, loop.row)
+        return {n: unpack(rows[i], guess[n].mixture, scale) for i, n in enumerate(block.tears)}
 
     def once(vector: Any) -> tuple[Any, Any]:
         sought = vector[vector.size - begun.size :]
@@ -115,23 +123,58 @@ def _run_loop(
             return changed.units[unit].operate(unit in sheeted, **inlets)
 
         made = pass_through(changed, block, streams | fed | torn(vector), asked, nothing)
-        rows = [_pack(known_or(made.streams[n], nothing), scale) for n in block.tears]
+        come = {n: known_or(made.streams[n], nothing) for n in block.tears}
+        modes = jax.lax.stop_gradient(loop.modes(vector))
+        taken = {
+            n: s.replace(pressure=jnp.where(modes[i] == returning.CARRIED, s.pressure, guess[n].pressure))
+            for i, (n, s) in enumerate(come.items())
+        }
+        rows = [pack(s, scale) for s in taken.values()]
         aims = [] if wanted is None else [sought - MISSES * wanted.misses(made.sheets, made.streams)]
-        image = jnp.concatenate([*rows, *aims])
-        apart = jnp.split(image - vector, list(accumulate(row.size for row in rows)))
-        return image, (made, jnp.stack([largest(part) for part in apart]))
+        image = jnp.concatenate([*rows, modes, *aims])
+        parts = [*rows, modes]
+        apart = jnp.split(image - vector, list(accumulate(part.size for part in parts)))
+        back = jnp.stack([jnp.asarray(s.pressure) / PRESSURE_SCALE for s in come.values()] or [jnp.zeros(())])
+        return image, (made, jnp.stack([largest(part) for part in (*apart[:-2], apart[-1])]), back)
 
-    start = jnp.concatenate([*(_pack(guess[n], scale) for n in block.tears), begun])
-    how = _with_parameters(method, begun.size)
-    found = settle(once, start, method=how, tolerance=TOLERANCE, max_steps=max_steps, known=known)
-    made, left = found.made
+    begin = [
+        *(pack(guess[n], scale) for n in block.tears),
+        *(jnp.asarray(carried.get(n, 0.0)) for n in block.tears),
+    ]
+    start = jnp.concatenate([jnp.ravel(part) for part in (*begin, begun)])
+    found = settle(
+        once,
+        start,
+        method=_with_parameters(method, begun.size),
+        tolerance=TOLERANCE,
+        max_steps=max_steps,
+        known=known,
+        turns=_turns(loop),
+    )
+    made, left, back = found.made
     told = {n: is_known(s) for n, s in made.streams.items()}
     at_rest = {n: where(told[n], s, made.streams[n]) for n, s in torn(found.state).items()}
+    records = dict(made.records)
+    for i, (n, s) in enumerate(at_rest.items()):
+        unit = line.link(n).source_unit
+        card = getattr(type(line.units[unit]), "card", None)
+        off = returning.told(back[i] * PRESSURE_SCALE, s.pressure, card.key if card else "")
+        records[unit] = [*records[unit], off]
     return (
-        made._replace(streams=made.streams | at_rest),
+        made._replace(streams=made.streams | at_rest, records=records),
         found._replace(converged=found.converged & jnp.all(jnp.stack([*told.values()]))),
         jax.lax.stop_gradient(left),
     )
+
+
+def _loop(line: Flowsheet, block: Block) -> Loop:
+    mixture = next(iter(line.feeds.values())).mixture
+    row = int(np.prod(mixture.solid_shape)) + len(mixture.liquids) + len(mixture.gases) + 2
+    return Loop(len(block.tears), row)
+
+
+def _turns(loop: Loop) -> Turns | None:
+    return returning.turns(loop, lambda made: made[2]) if loop.count else None
 
 
 class Wanted(NamedTuple):
@@ -173,6 +216,7 @@ def solve(
     method: Method = QUICK_METHOD,
     max_steps: int = 200,
     known: tuple[Any, ...] | None = None,
+    carried: Mapping[str, Any] | None = None,
 ) -> Solution:
     """Solve a line. Pure: may be jitted, batched with ``vmap`` and differentiated.
 
@@ -187,12 +231,14 @@ def solve(
         ``Chords``, for many neighbors of one case, which hands on what it learned of slopes.
         max_steps: most passes through a loop, or steps of ``Continuation``.
     known: of an earlier solution by the same method, to go on from there; ``nothing_known`` to begin.
+    carried: of an earlier solution from whose streams it starts.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
     whole = Made(streams, {}, {}, {})
     converged, met, sought, steps, residual = jnp.asarray(True), jnp.asarray(True), None, [], []
     left_off: list[Any] = []
+    modes: dict[str, Any] = {}
     of = frozenset(line.units if sheets is True else sheets or ())
     of = of if wanted is None else of | wanted.units
 
@@ -215,8 +261,10 @@ def solve(
                 method,
                 max_steps,
                 None if known is None else known[len(left_off)],
+                carried or {},
             )
             left_off.append(found.known)
+            modes |= zip(block.tears, _loop(line, block).modes(found.state), strict=True)
             if aimed and wanted is not None:
                 sought = found.state[found.state.size - len(wanted.start) :]
                 met = found.converged & jnp.all((sought >= 0.0) & (sought <= 1.0))
@@ -244,6 +292,7 @@ def solve(
         met & converged,
         sought,
         tuple(left_off),
+        modes,
     )
 
 
@@ -265,30 +314,35 @@ def nothing_known(line: Flowsheet, method: Method, among: frozenset[str], count:
     """What a solver begins with that is called for some passes at a time, ``count`` parameters being wanted
     ``among`` units.
     """
-    return tuple(np.zeros(knowledge(how, size)) for how, size in _sought_at_once(line, method, among, count))
+    return tuple(
+        np.zeros(knowledge(how, size, turns))
+        for how, size, turns in _sought_at_once(line, method, among, count)
+    )
 
 
 def unknowns(line: Flowsheet, among: frozenset[str], count: int) -> int:
     """How many numbers are sought together at most."""
-    return max((size for _how, size in _sought_at_once(line, QUICK_METHOD, among, count)), default=0)
+    return max((size for _how, size, _turns in _sought_at_once(line, QUICK_METHOD, among, count)), default=0)
 
 
 def neighbor(line: Flowsheet, known: tuple[Any, ...], among: frozenset[str], count: int) -> tuple[Any, ...]:
     """What ``Chords`` left of one case, for another one to begin with."""
     sought = _sought_at_once(line, Chords(), among, count)
-    return tuple(again(how, left, size) for (how, size), left in zip(sought, known, strict=True))
+    return tuple(
+        again(how, left, size, turns) for (how, size, turns), left in zip(sought, known, strict=True)
+    )
 
 
 def _sought_at_once(
     line: Flowsheet, method: Method, among: frozenset[str], count: int
-) -> list[tuple[Any, int]]:
+) -> list[tuple[Any, int, Turns | None]]:
     """The solver of each loop, and of what is wanted, with the number of its unknowns."""
-    mixture = next(iter(line.feeds.values())).mixture
-    row = int(np.prod(mixture.solid_shape)) + len(mixture.liquids) + len(mixture.gases) + 1
+    loops = [
+        (_loop(line, block), count * aimed) for block, aimed in _joined(line, among) if block.tears or aimed
+    ]
     return [
-        (_with_parameters(method, count * aimed), row * len(block.tears) + count * aimed)
-        for block, aimed in _joined(line, among)
-        if block.tears or aimed
+        (_with_parameters(method, wanted), loop.count * (loop.row + 1) + wanted, _turns(loop))
+        for loop, wanted in loops
     ]
 
 

@@ -13,7 +13,7 @@ from jax import lax
 
 from granum.numerics.chords import Chords
 from granum.numerics.continuation import Continuation
-from granum.numerics.fixed_points import Anderson, as_real, solve_linear, within_rounding
+from granum.numerics.fixed_points import Anderson, as_real, chosen, solve_linear, within_rounding
 from granum.numerics.implicit import converted
 from granum.numerics.seeking import Seeking
 
@@ -33,6 +33,18 @@ class Settled(NamedTuple):
     known: jax.Array | None = None
 
 
+class Turns(NamedTuple):
+    """What may change the state between two passes of an iteration, as when a switch in it is thrown.
+
+    begin: what is remembered of a start, a tree of arrays. after: from what is remembered, the number of
+    passes since the last turn, and the state of the last one with its residual and what it made: what is
+    remembered from now on, whether to turn, and the state from which the iteration then begins anew.
+    """
+
+    begin: Callable[[jax.Array], Any]
+    after: Callable[[Any, jax.Array, jax.Array, jax.Array, Any], tuple[Any, jax.Array, jax.Array]]
+
+
 def settle(
     function: Callable[[jax.Array], tuple[jax.Array, Any]],
     start: jax.Array,
@@ -41,6 +53,7 @@ def settle(
     tolerance: float = 1e-10,
     max_steps: int = 200,
     known: jax.Array | None = None,
+    turns: Turns | None = None,
 ) -> Settled:
     """Solve ``function(state)[0] == state`` for a vector scaled to about one; ``function`` makes further
     results on the way.
@@ -51,7 +64,7 @@ def settle(
 
     ``known``, of an earlier outcome, goes on where that was left, ``max_steps`` counting from the beginning;
     zeros (``knowledge`` says how many) begin. Of a function that never gives a number, what the first pass
-    made is kept: it shows where the numbers were lost.
+    made is kept: it shows where the numbers were lost. ``turns`` may change the state on the way.
 
     Example:
         >>> found = settle(lambda x: (jnp.cos(x), {"sine": jnp.sin(x)}), jnp.array([1.0]))
@@ -74,9 +87,14 @@ def settle(
     traced, given, _image = converted(flat, start)
     tree, kinds = shape
 
+    def opened(packed: jax.Array) -> Any:
+        parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
+        leaves = [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)]
+        return jax.tree.unflatten(tree, leaves)
+
     def searched(given: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
-            iteration, kept = carry
+            iteration, turning, kept = carry
             x = iteration[0]
             if isinstance(method, Continuation):
                 image, linear, made = jax.linearize(lambda x: traced(given, x), x, has_aux=True)
@@ -85,19 +103,25 @@ def settle(
                 image, made = traced(given, x)
                 following = method.proceed(iteration, image - x)
             better = (following[1][1] < iteration[1][1]) | (iteration[-1] == 0)
-            return following, jnp.where(better, made, kept)
+            kept = jnp.where(better, made, kept)
+            if turns is None:
+                return following, turning, kept
+            memory, before = turning
+            memory, turned, onward = turns.after(memory, following[-1], x, image - x, opened(made))
+            before = before + jnp.where(turned, following[-1], 0)
+            return chosen(turned, method.begin(onward), following), (memory, before), kept
 
         def unfinished(carry: tuple) -> jax.Array:
-            iteration, _ = carry
+            iteration, turning, _ = carry
             x, size = iteration[1]
-            unsettled = (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps)
+            unsettled = (size > within_rounding(x, tolerance)) & (_passes(iteration, turning) < max_steps)
             return unsettled & method.hopes(iteration)
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
-        begun = method.begin(start)
-        iteration, made = lax.while_loop(unfinished, advance, (_resumed(begun, known), blank))
-        (x, size), number = iteration[1], iteration[-1]
-        return x, made, size, number.astype(x.dtype), _packed(iteration)
+        begun = method.begin(start), _turning(turns, start)
+        iteration, turning, made = lax.while_loop(unfinished, advance, (*_resumed(begun, known), blank))
+        (x, size), number = iteration[1], _passes(iteration, turning)
+        return x, made, size, number.astype(x.dtype), _packed((iteration, turning))
 
     # nothing may be closed over by what is differentiated later, when this call has returned
     sought, limits, _image = converted(searched, given, start)
@@ -117,29 +141,37 @@ def settle(
         return (x, made, *numbers), (change, along, *map(jnp.zeros_like, numbers))
 
     x, packed, size, number, left = search(given, limits, start)
-    parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
-    made = jax.tree.unflatten(
-        tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)]
-    )
     size = lax.stop_gradient(size)
     converged = size <= within_rounding(x, tolerance)
-    return Settled(x, made, converged, number.astype(int), size, lax.stop_gradient(left))
+    return Settled(x, opened(packed), converged, number.astype(int), size, lax.stop_gradient(left))
 
 
-def knowledge(method: Method, size: int) -> int:
+def knowledge(method: Method, size: int, turns: Turns | None = None) -> int:
     """How many numbers an iteration over so many unknowns knows."""
-    shapes = jax.eval_shape(method.begin, jax.ShapeDtypeStruct((size,), float))
+    shapes = jax.eval_shape(
+        lambda start: (method.begin(start), _turning(turns, start)), jax.ShapeDtypeStruct((size,), float)
+    )
     return 1 + sum(leaf.size for leaf in jax.tree.leaves(shapes))
 
 
-def again(method: Chords, known: jax.Array, size: int) -> jax.Array:
+def again(method: Chords, known: jax.Array, size: int, turns: Turns | None = None) -> jax.Array:
     """What ``known`` of one outcome is to begin a neighbor with."""
-    begun = method.begin(jnp.zeros((size,)))
-    return _packed(method.again(_resumed(begun, known)))
+    begun = method.begin(jnp.zeros((size,))), _turning(turns, jnp.zeros((size,)))
+    iteration, _turned = _resumed(begun, known)
+    return _packed((method.again(iteration), _turning(turns, iteration[1][0])))
 
 
-def _packed(iteration: tuple) -> jax.Array:
-    leaves = (jnp.ravel(leaf).astype(float) for leaf in jax.tree.leaves(iteration))
+def _turning(turns: Turns | None, start: jax.Array) -> tuple:
+    """What is remembered between turns, and the passes before the last one."""
+    return () if turns is None else (turns.begin(start), jnp.zeros((), int))
+
+
+def _passes(iteration: tuple, turning: tuple) -> jax.Array:
+    return iteration[-1] + (turning[1] if turning else 0)
+
+
+def _packed(known: tuple) -> jax.Array:
+    leaves = (jnp.ravel(leaf).astype(float) for leaf in jax.tree.leaves(known))
     return jnp.concatenate([jnp.ones((1,)), *leaves])
 
 
@@ -151,6 +183,6 @@ def _resumed(begun: tuple, known: jax.Array | None) -> tuple:
     ends = list(accumulate(leaf.size for leaf in leaves))
     parts = jnp.split(known[1:], ends[:-1])
     left = [part.reshape(leaf.shape).astype(leaf.dtype) for part, leaf in zip(parts, leaves, strict=True)]
-    x, (best, _size), *others = jax.tree.unflatten(tree, left)
-    again = (x, (best, jnp.full_like(_size, jnp.inf)), *others)
+    (x, (best, _size), *others), turning = jax.tree.unflatten(tree, left)
+    again = (x, (best, jnp.full_like(_size, jnp.inf)), *others), turning
     return jax.tree.map(lambda old, new: jnp.where(known[0] > 0, old, new), again, begun)

@@ -1,0 +1,101 @@
+"""The pressure at which a torn stream comes round: found with the rest of its loop, unless the loop loses or
+gains some at every turn.
+
+A loop is first brought to rest with each torn stream at the pressure of its first guess. Where it comes back
+at another one, it is carried round as well. If what is missing then stays missing, as where nothing makes
+good for the loss of a filter, there is no such pressure: the guess is kept, and it is told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import flags
+from granum.numerics.fixed_points import largest
+from granum.numerics.settled import Turns
+
+GUESSED, CARRIED, DRIFTING = 0.0, 1.0, 2.0
+SAME = 1e-9  # of the pressure: what a stream may miss of it
+SETTLED = 1e-4  # flows have, before anybody looks at pressures
+STAYS = 0.25  # of what was missing two rounds before: so much will not go away
+TOLD = 1e-6  # of the pressure: less than this is nothing to speak of
+REASON = (
+    "Every round of this loop loses or gains pressure, which nothing in the line makes good: the stream that "
+    "goes round is taken up again at the pressure of the first feed. Draw in a fan or a pump with the rise "
+    "that the loop needs, so that its power and its heat are counted."
+)
+
+
+class Loop(NamedTuple):
+    """Where the numbers of torn streams stand among the unknowns: ``count`` rows, each ending with its
+    pressure, then how each pressure is come by.
+    """
+
+    count: int
+    row: int
+
+    def pressures(self, vector: Any) -> Any:
+        """Of each torn stream, scaled."""
+        return vector[: self.count * self.row].reshape(self.count, self.row)[:, -1]
+
+    def modes(self, vector: Any) -> Any:
+        """``GUESSED``, ``CARRIED`` or ``DRIFTING``."""
+        return vector[self.count * self.row :][: self.count]
+
+    def changed(self, vector: Any, pressures: Any, modes: Any) -> Any:
+        """The unknowns with other pressures and modes."""
+        rows = vector[: self.count * self.row].reshape(self.count, self.row)
+        rest = vector[self.count * (self.row + 1) :]
+        return jnp.concatenate([jnp.ravel(rows.at[:, -1].set(pressures)), modes, rest])
+
+
+class _Round(NamedTuple):
+    """Whether it is seen what comes of carrying; the state before, and what was missing two rounds before it
+    is looked at.
+    """
+
+    trying: Any
+    before: Any
+    missing: Any
+
+
+def turns(loop: Loop, returned: Callable[[Any], Any]) -> Turns:
+    """For ``settle``: pressures that are missed are carried on, and given up again.
+
+    ``returned``: from what a pass made, the pressures at which torn streams come back, scaled.
+    """
+    carried_on = loop.count + 2  # rounds in which a change has passed every torn stream
+
+    def begin(start: Any) -> _Round:
+        return _Round(jnp.zeros((), bool), start, jnp.zeros((loop.count,)))
+
+    def after(known: _Round, passes: Any, x: Any, r: Any, made: Any) -> tuple[_Round, Any, Any]:
+        back, here, modes = returned(made), loop.pressures(x), loop.modes(x)
+        missing = abs(back - here)
+        missed = missing > SAME * here
+        free = (modes == GUESSED) & missed
+        opens = (largest(r[: loop.count * loop.row]) <= SETTLED) & jnp.any(free)
+        carried = loop.changed(x, jnp.where(free, back, here), jnp.where(free, CARRIED, modes))
+
+        looks = known.trying & ~opens & (passes == carried_on + 2)
+        drifts = (modes == CARRIED) & missed & (missing > STAYS * known.missing)
+        at = jnp.where(drifts, loop.pressures(known.before), here)
+        given_up = loop.changed(known.before, at, jnp.where(drifts, DRIFTING, modes))
+        following = _Round(
+            opens | (known.trying & ~looks),
+            jnp.where(opens, x, known.before),
+            jnp.where(passes == carried_on, missing, known.missing),
+        )
+        return following, opens | (looks & jnp.any(drifts)), jnp.where(opens, carried, given_up)
+
+    return Turns(begin, after)
+
+
+def told(back: Any, pressure: Any, card: str) -> flags.Record:
+    """That a stream comes back at another pressure than that at which it is taken up."""
+    missed = abs(back - pressure) > TOLD * pressure
+    return flags.Record(missed, back, flags.EXTRAPOLATED, "pressure", card, -np.inf, np.inf, "", REASON)
