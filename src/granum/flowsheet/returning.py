@@ -54,11 +54,11 @@ class Loop(NamedTuple):
 
 
 class _Round(NamedTuple):
-    """Whether it is seen what comes of carrying; the state before, and what was missing two rounds before it
-    is looked at.
+    """How many rounds pressures have been carried, or a negative number; the state before, and what was
+    missing two rounds before it is looked at what comes of it.
     """
 
-    trying: Any
+    rounds: Any
     before: Any
     missing: Any
 
@@ -71,9 +71,9 @@ def turns(loop: Loop, returned: Callable[[Any], Any]) -> Turns:
     carried_on = loop.count + 2  # rounds in which a change has passed every torn stream
 
     def begin(start: Any) -> _Round:
-        return _Round(jnp.zeros((), bool), start, jnp.zeros((loop.count,)))
+        return _Round(jnp.full((), -1), start, jnp.zeros((loop.count,)))
 
-    def after(known: _Round, passes: Any, x: Any, r: Any, made: Any) -> tuple[_Round, Any, Any]:
+    def after(known: _Round, x: Any, r: Any, made: Any) -> tuple[_Round, Any, Any]:
         back, here, modes = returned(made), loop.pressures(x), loop.modes(x)
         missing = abs(back - here)
         missed = missing > SAME * here
@@ -81,14 +81,15 @@ def turns(loop: Loop, returned: Callable[[Any], Any]) -> Turns:
         opens = (largest(r[: loop.count * loop.row]) <= SETTLED) & jnp.any(free)
         carried = loop.changed(x, jnp.where(free, back, here), jnp.where(free, CARRIED, modes))
 
-        looks = known.trying & ~opens & (passes == carried_on + 2)
+        rounds = jnp.where(known.rounds < 0, -1, known.rounds + 1)
+        looks = ~opens & (rounds == carried_on + 2)
         drifts = (modes == CARRIED) & missed & (missing > STAYS * known.missing)
         at = jnp.where(drifts, loop.pressures(known.before), here)
         given_up = loop.changed(known.before, at, jnp.where(drifts, DRIFTING, modes))
         following = _Round(
-            opens | (known.trying & ~looks),
+            jnp.where(opens, 0, jnp.where(looks, -1, rounds)),
             jnp.where(opens, x, known.before),
-            jnp.where(passes == carried_on, missing, known.missing),
+            jnp.where(rounds == carried_on, missing, known.missing),
         )
         return following, opens | (looks & jnp.any(drifts)), jnp.where(opens, carried, given_up)
 

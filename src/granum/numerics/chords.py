@@ -81,6 +81,10 @@ class Chords(eqx.Module):
         stuck = (course.mode == ALONG) & (course.since > PATIENCE) & (course.times >= MOST)
         return ~course.lost & ~stuck & ~((course.mode == SUBSTITUTING) & (course.since > LONG))
 
+    def moves(self, carry: tuple) -> jax.Array:
+        """As of ``Anderson``."""
+        return carry[4].mode < 0
+
     def proceed(self, carry: tuple, r: jax.Array) -> tuple:
         """As of ``Anderson``."""
         x, best, inverse, inner, course, number = carry

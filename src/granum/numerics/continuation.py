@@ -46,6 +46,10 @@ class Continuation(eqx.Module):
         """As of ``Anderson``."""
         return carry[4] > SHORTEST
 
+    def moves(self, carry: tuple) -> jax.Array:
+        """As of ``Anderson``."""
+        return jnp.asarray(True)
+
     def proceed(self, carry: tuple, r: jax.Array, derivative: Callable[[jax.Array], jax.Array]) -> tuple:
         """As of ``Anderson``, given the derivative of the residual as well, a linear function."""
         x, best, base, norm, during, again, number = carry

@@ -83,6 +83,10 @@ class Anderson(AbstractMethod):
         """Whether it makes sense to go on."""
         return jnp.asarray(True)
 
+    def moves(self, carry: tuple) -> jax.Array:
+        """Whether the state is a step toward rest, and not one that measures slopes."""
+        return jnp.asarray(True)
+
     def proceed(self, carry: tuple, r: jax.Array) -> tuple:
         """The next state, given the residual at its first item."""
         x, best, base, points, residuals, least, rejected, number = carry

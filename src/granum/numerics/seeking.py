@@ -76,6 +76,10 @@ class Seeking(eqx.Module):
         """As of ``Anderson``."""
         return ~carry[3].lost
 
+    def moves(self, carry: tuple) -> jax.Array:
+        """As of ``Anderson``."""
+        return jnp.asarray(True)
+
     def proceed(self, carry: tuple, r: jax.Array) -> tuple:
         """As of ``Anderson``."""
         x, best, inner, sought, moved, last, number = carry

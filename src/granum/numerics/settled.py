@@ -36,13 +36,13 @@ class Settled(NamedTuple):
 class Turns(NamedTuple):
     """What may change the state between two passes of an iteration, as when a switch in it is thrown.
 
-    begin: what is remembered of a start, a tree of arrays. after: from what is remembered, the number of
-    passes since the last turn, and the state of the last one with its residual and what it made: what is
-    remembered from now on, whether to turn, and the state from which the iteration then begins anew.
+    begin: what is remembered of a start, a tree of arrays. after: from what is remembered, and the state of
+    the last pass with its residual and what it made: what is remembered from now on, whether to turn, and the
+    state from which the iteration then begins anew. Passes that only measure slopes are not told.
     """
 
     begin: Callable[[jax.Array], Any]
-    after: Callable[[Any, jax.Array, jax.Array, jax.Array, Any], tuple[Any, jax.Array, jax.Array]]
+    after: Callable[[Any, jax.Array, jax.Array, Any], tuple[Any, jax.Array, jax.Array]]
 
 
 def settle(
@@ -107,7 +107,9 @@ def settle(
             if turns is None:
                 return following, turning, kept
             memory, before = turning
-            memory, turned, onward = turns.after(memory, following[-1], x, image - x, opened(made))
+            plain = method.moves(iteration)
+            onward = turns.after(memory, x, image - x, opened(made))
+            memory, turned, onward = chosen(plain, onward[0], memory), plain & onward[1], onward[2]
             before = before + jnp.where(turned, following[-1], 0)
             return chosen(turned, method.begin(onward), following), (memory, before), kept
 
