@@ -26,7 +26,7 @@ TOLD = 1e-6  # of the pressure: less than this is nothing to speak of
 REASON = (
     "Every round of this loop loses or gains pressure, which nothing in the line makes good: the stream that "
     "goes round is taken up again at the pressure of the first feed. Draw in a fan or a pump with the rise "
-    "that the loop needs, so that its power and its heat are counted."
+    "that the loop needs; what it warms the stream by is then counted, too."
 )
 
 
