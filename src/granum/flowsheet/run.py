@@ -312,9 +312,8 @@ class Run:
         """
         written = {}
         for name in self.sheet.order:
-            inlets = jax.tree.map(jnp.asarray, self.sheet.inlets_of(name, self.streams))
             with record_steps() as steps:
-                made = self.sheet.units[name].operate(**inlets)
+                made = self.sheet.units[name].operate(**self._inlets(name))
             written[name] = tuple(steps), made
         return written
 
@@ -328,10 +327,12 @@ class Run:
         return {
             f"{name} · {heading}": figure
             for name, (_steps, made) in self._written.items()
-            for heading, figure in self.sheet.units[name]
-            .charts(made, self.sheet.inlets_of(name, self.streams))
-            .items()
+            for heading, figure in self.sheet.units[name].charts(made, self._inlets(name)).items()
         }
+
+    def _inlets(self, name: str) -> dict[str, Stream]:
+        """What enters a unit, as arrays that its formulas calculate with."""
+        return jax.tree.map(jnp.asarray, self.sheet.inlets_of(name, self.streams))
 
     @cached_property
     def audit(self) -> dict[str, Any]:

@@ -141,9 +141,8 @@ class HumidMixture:
         """The gas, kg/s of each species, that carries the vapor which a dryer counts: the dry gas; steam is
         its own carrier.
         """
-        gas = jnp.asarray(stream.gas)
-        dry = gas.at[self.vapor].set(0.0)
-        return jnp.where(gas[self.vapor] > STEAM * stream.gas_flow, gas, dry)
+        dry = stream.gas.at[self.vapor].set(0.0)
+        return jnp.where(stream.gas[self.vapor] > STEAM * stream.gas_flow, stream.gas, dry)
 
     def carrier_flow(self, stream: Stream) -> Any:
         """All of it, kg/s."""
