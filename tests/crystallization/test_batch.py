@@ -319,4 +319,5 @@ def test_more_crystals_leave_a_poorer_liquor():
 
 def test_a_vessel_that_is_filled_on_the_way_to_a_solution_sends_on_no_flood():
     """Evaporated before its feed has come: a deficit of solvent of a kilogram and traces of solute."""
+    assert float(ratio_left(0.16, -0.01, 1.6, 1.0)) < 0.0  # more boiled off and more grown than there was
     assert abs(float(ratio_left(1e-12, -1.0, 0.0, 1.0))) < 1e-9

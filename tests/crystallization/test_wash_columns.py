@@ -33,6 +33,42 @@ def test_the_washed_bed_is_that_of_the_dispersion_equation(reflux, number):
     assert impurity_ratio_wash_column(reflux, number) == pytest.approx(1.0 / down.y[0, -1], rel=1e-8)
 
 
+@pytest.mark.parametrize(("reflux", "number", "carried"), [(0.05, 60.0, 0.01), (-0.1, 30.0, 0.2)])
+def test_what_crystals_carry_is_a_source_in_the_same_equation(reflux, number, carried):
+    """c' = −N (x − s + R c): linear in the product's x, so that two runs give the one that fits the front."""
+
+    def front(x):
+        bed = solve_ivp(
+            lambda z, c: number * (x - carried + reflux * c), (0.0, 1.0), [x], rtol=1e-10, atol=1e-13
+        )
+        return bed.y[0, -1]
+
+    fits = (1.0 - front(0.0)) / (front(1.0) - front(0.0))
+    assert impurity_ratio_wash_column(reflux, number, carried) == pytest.approx(fits, rel=1e-6)
+    assert impurity_ratio_wash_column(0.05, 1e5, 0.01) == pytest.approx(0.01 / 1.05, rel=1e-9)
+
+
+def test_more_wash_never_leaves_more_impurity():
+    """Inclusions had gone into the product whole, however much of it returned as wash."""
+    left = [
+        float(column(wash_ratio=w, inclusion_fraction=0.01).operate(feed=FEED).figures.impurity_ratio)
+        for w in (0.9, 1.05, 1.5, 3.0)
+    ]
+    assert np.all(np.diff(left) <= 1e-12)
+    assert left[0] < 0.01
+
+
+def test_random_beds_let_less_through_with_more_wash_and_more_height():
+    """Between nothing and all that comes, for beds from a grain to kilometers deep."""
+    rng = np.random.default_rng(3)
+    reflux, number = rng.uniform(-0.9, 3.0, 200), 10.0 ** rng.uniform(-2.0, 5.0, 200)
+    carried = rng.uniform(0.0, 0.1, 200)
+    left = np.asarray(impurity_ratio_wash_column(reflux, number, carried))
+    assert np.all((left > 0.0) & (left <= 1.0))
+    assert np.all(impurity_ratio_wash_column(reflux + 0.05, number, carried) <= left * (1 + 1e-12))
+    assert np.all(impurity_ratio_wash_column(reflux, 1.5 * number, carried) <= left * (1 + 1e-12))
+
+
 def test_without_enough_wash_mother_liquor_rises():
     assert impurity_ratio_wash_column(-0.2, 1e5) == pytest.approx(0.2, rel=1e-6)
     assert impurity_ratio_wash_column(5.0, 1e5) < 1e-200

@@ -53,6 +53,7 @@ from granum.crystallization.population.lagrangian import Course, Model, Suspensi
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Packets, Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
+from granum.crystallization.vessels.crystals import born_share
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.stirring import heat_transfer_coefficient_stirred
@@ -195,6 +196,13 @@ class BatchVessel(Unit):
         ),
         "highest": Limit("highest relative supersaturation", 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
         "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
+        "present": Limit(
+            "crystals, or a liquor that needs none (1 when so)",
+            1.0,
+            1.0,
+            "dimensionless",
+            "mullin2001, ch. 5",
+        ),
     }
 
     @abstractmethod
@@ -263,7 +271,7 @@ class BatchVessel(Unit):
             safe_divide(made, product.slurry_volume_flow),
             jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0,
             final.mean_size(4, 3),
-            1.0 - seeded / jnp.maximum(jnp.sum(cubes), 1e-300),
+            born_share(seeded, jnp.sum(cubes)),
         )
 
     def _cooled(self, inside: Grown, feed: Stream) -> BatchOutlets:
@@ -276,7 +284,16 @@ class BatchVessel(Unit):
             "crowded": outlets.product.solids_volume_fraction,
             "highest": figures.relative_supersaturation_maximum,
             "largest": outlets.product.size_fractions[-1],
+            "present": present(inside.course),
         }
+
+
+def present(course: Any) -> Any:
+    """0 where a batch ends supersaturated and without any crystals: it had no seeds, and none were born."""
+    ratio, saturated, crystals = (
+        row[..., -1] for row in (course.solute_per_solvent, course.solubility_per_solvent, course.crystals)
+    )
+    return jnp.where(jnp.all((ratio > (1.0 + 1e-6) * saturated) & (crystals <= 0.0)), 0.0, 1.0)
 
 
 def heard(course: Course) -> Contents:

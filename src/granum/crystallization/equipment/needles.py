@@ -32,7 +32,14 @@ from granum.core.kinds import (
     Velocity,
     Volume,
 )
-from granum.crystallization.equipment.batch import STEPS, TRICKLE, BatchOutlets, BatchVessel, thermal
+from granum.crystallization.equipment.batch import (
+    STEPS,
+    TRICKLE,
+    BatchOutlets,
+    BatchVessel,
+    present,
+    thermal,
+)
 from granum.crystallization.equipment.in_time import Crystallized
 from granum.crystallization.equipment.msmpr import Evaporative
 from granum.crystallization.equipment.roles import (
@@ -245,6 +252,7 @@ class NeedleBatchCrystallizer(Stirred, Unit):
             "crowded": product.solids_volume_fraction,
             "highest": figures.relative_supersaturation_maximum,
             "largest": product.size_fractions[-1],
+            "present": present(inside.course),
         } | self.stirrer_measured(product, figures.volume)
 
     def drawn(

@@ -162,9 +162,9 @@ class SuspensionMeltCrystallizer(Unit):
         made = 1.0 + held * (1.0 - self.wash_ratio)
         unsolved(made > 0.0, card, reason=UNWASHED)
         made = jnp.where(made > 0.0, made, 1.0)
-        ratio = self._left(made, wash, frozen, held, voids)
         unreached = (1.0 - self.wash_efficiency) * self.void_fraction / (1.0 - self.void_fraction)
-        ratio = jnp.minimum(ratio + (unreached + self.inclusion_fraction) * liquor / made, 1.0)
+        carried = (unreached + self.inclusion_fraction) * liquor / made
+        ratio = jnp.minimum(self._left(made, wash, frozen, held, carried), 1.0)
         g = self.frozen_fraction
         share = g * ratio / (g * ratio + 1.0 - g)
         others = feed.liquid_flow - feed.liquid[pure]
@@ -172,12 +172,13 @@ class SuspensionMeltCrystallizer(Unit):
         unsolved(left >= -1e-12 * feed.liquid_flow, card, reason=TOO_IMPURE)
         return Washed(ratio, share, 1.0 / made, wash, frozen, voids, pure, others)
 
-    def _left(self, made: Any, wash: Any, frozen: Any, held: Any, voids: Any) -> Any:
+    def _left(self, made: Any, wash: Any, frozen: Any, held: Any, carried: Any) -> Any:
         """Impurity that rises through the washed bed, over that of the mother liquor."""
         pore = self.bed_velocity / held  # of a flow equal to that of the crystals, m/s
         dispersion = axial_dispersion(wash * pore, self.crystal_size, DIFFUSIVITY)
         reflux = (1.0 + frozen - made) / made
-        return impurity_ratio_wash_column(reflux, made * pore * self.washed_height / dispersion)
+        number = made * pore * self.washed_height / dispersion
+        return impurity_ratio_wash_column(reflux, number, carried)
 
     def outlets(self, inside: Washed, feed: Stream) -> SuspensionMeltOutlets:
         impure = feed.liquid * inside.impurity_share

@@ -59,26 +59,32 @@ def wash_front(
 @formula(
     source="player1969; arkenbout1995",
     title="Impurity that a wash column leaves",
-    equation=r"\frac{w_P}{w_m} = \frac{1}{e^{y} + N\,\frac{e^{y}-1}{y}},\quad y = R\,N,\quad "
-    r"N = \frac{\dot m_P\,H}{\rho\,\varepsilon A D_L}",
+    equation=r"\frac{w_P}{w_m} = \frac{1 + s N m}{e^{y} + N m},\quad m = \frac{e^{y}-1}{y},\quad "
+    r"y = R\,N,\quad N = \frac{\dot m_P\,H}{\rho\,\varepsilon A D_L}",
     output="impurity_ratio",
-    typical={"wash_reflux": (0.0, 0.2), "wash_number": (10.0, 300.0)},
+    typical={"wash_reflux": (0.0, 0.2), "wash_number": (10.0, 300.0), "carried_liquor": (0.0, 0.01)},
     symbols={"impurity_ratio": "w_P/w_m"},
 )
 def impurity_ratio_wash_column(
-    wash_reflux: Annotated[Number, Within(-0.99, 10.0)],
+    wash_reflux: Annotated[Number, Within(-0.99, 1e6)],
     wash_number: Annotated[PositiveNumber, Within(1e-6, 1e6)],
+    carried_liquor: Ratio = 0.0,
 ) -> PositiveNumber:
     """Impurity of the product over that of the mother liquor, when crystals rise through a washed height
     against melt that partly returns from above, and axial dispersion carries impurity upwards.
 
     The reflux is the net downward flow of liquid over the product; where it is negative, mother liquor rises
     with the crystals, and their share of the product is what a long column leaves. The liquid in the voids
-    is mixed across; liquor that the wash does not reach comes on top.
+    is mixed across. Liquor that the wash does not reach, in crystals or between them, is carried up whole, so
+    much of it per product; once melted it returns in part with the wash: a long column leaves s/(1 + R).
 
     >>> round(impurity_ratio_wash_column(wash_reflux=0.05, wash_number=100.0) * 1e4, 2)
     3.23
     """
-    y = jnp.minimum(wash_reflux * wash_number, STEEPEST)
-    mean = jnp.where(jnp.abs(y) > 1e-8, safe_divide(jnp.expm1(y), y, 1.0), 1.0 + 0.5 * y)
-    return 1.0 / (jnp.exp(y) + wash_number * mean)
+    y = wash_reflux * wash_number
+    down = y >= 0.0
+    size = jnp.where(down, y, -y)
+    falling = jnp.exp(-jnp.minimum(size, STEEPEST))
+    mean = wash_number * jnp.where(size > 1e-8, safe_divide(-jnp.expm1(-size), size, 1.0), 1.0 - 0.5 * size)
+    carried = carried_liquor * mean
+    return jnp.where(down, (falling + carried) / (1.0 + mean), (1.0 + carried) / (falling + mean))

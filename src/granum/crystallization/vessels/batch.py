@@ -37,7 +37,7 @@ from granum.crystallization.population.grid import Collisions, check_classes
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Addition, Operation, Programmed
 from granum.crystallization.population.packets import GrowthDispersion, Seeds
-from granum.crystallization.vessels.crystals import Crystal
+from granum.crystallization.vessels.crystals import Crystal, born_share
 from granum.numerics.smooth import safe_divide
 
 SEED_PACKETS = 16
@@ -127,7 +127,7 @@ def nuclei_share(course: Course, seeds: Seeds) -> float:
     cubes = course.final.number * _cubes(course.final)
     # one row of packets for each growth rate
     per_rate = cubes.reshape((-1, seeds.low.shape[0] + course.born.shape[0]))
-    return float(1.0 - jnp.sum(per_rate[:, : seeds.low.shape[0]]) / jnp.maximum(jnp.sum(cubes), 1e-300))
+    return float(born_share(jnp.sum(per_rate[:, : seeds.low.shape[0]]), jnp.sum(cubes)))
 
 
 def mass_mean(course: Course) -> float:

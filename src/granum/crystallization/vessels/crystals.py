@@ -53,14 +53,22 @@ def crystals_at(
     return (solute - solvent * c) / (x - (1.0 - x if bound is None else bound) * c)
 
 
+def born_share(seeded: Any, crystals: Any) -> Any:
+    """Share of the crystals that was born, from what the seeds have become; none where there are no
+    crystals.
+    """
+    return jnp.maximum(1.0 - safe_divide(seeded, crystals, 1.0), 0.0)
+
+
 def ratio_left(solute: Any, solvent: Any, crystals: Any, solute_fraction: Any, bound: Any = None) -> Any:
     """Solute per solvent of the liquor once a mass of crystals has formed: the inverse of ``crystals_at``.
 
     It falls on with crystals that would bind more solvent than there is, where a quotient of two deficits
     would be a rich liquor again. Where there is no solvent to begin with, as where an empty feed is
-    evaporated on the way to the solution of a line, the quotient stands as it is.
+    evaporated on the way to the solution of a line, or where a step of a batch has tried to boil off more
+    than there was, what counts is the sign of the solute that is left.
     """
     bound = 1.0 - solute_fraction if bound is None else bound
     left = solvent - bound * crystals
-    left = jnp.where(solvent > 0.0, jnp.maximum(left, DRY * solvent), left)
+    left = jnp.where(solvent > 0.0, jnp.maximum(left, DRY * solvent), jnp.abs(left))
     return safe_divide(solute - solute_fraction * crystals, left)

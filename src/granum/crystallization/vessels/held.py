@@ -231,4 +231,14 @@ def nucleation_controlled_batch(
         Sensor(count_deviation, reading_interval) if count_deviation > 0 else None,
     )
     course, error = simulated(model, operation, seeds, solute_per_solvent, duration, steps)
-    return course_of(course, seeds, solute_per_solvent, solute_fraction_of_crystal, error)
+    made = course_of(course, seeds, solute_per_solvent, solute_fraction_of_crystal, error)
+    if made.relative_supersaturation[-1] > 1e-6 and made.crystals_per_solvent[-1] == 0.0:
+        raise InputError(
+            _(
+                "There are no seeds, and the law of nucleation bears no crystals where none are (relative "
+                "supersaturation {supersaturation} at the end): the batch would wait for ever. Give seeds or "
+                "a primary nucleation, such as 'secondary_nucleation' with a magma order of 0."
+            ).format(supersaturation=format_number(made.relative_supersaturation[-1], 3)),
+            name="seed_mass_per_solvent",
+        )
+    return made

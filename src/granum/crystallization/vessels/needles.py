@@ -38,7 +38,7 @@ from granum.crystallization.population.lagrangian import Model, SuspensionVolume
 from granum.crystallization.population.needles import Aged, Lines, Segments, prisms, shifted, volume_after
 from granum.crystallization.population.operations import Contents
 from granum.crystallization.vessels.batch import along, check_charge, narrow_seeds
-from granum.crystallization.vessels.crystals import Crystal, crystals_at, ratio_left
+from granum.crystallization.vessels.crystals import Crystal, born_share, crystals_at, ratio_left
 from granum.crystallization.vessels.msmpr import Feed, steady_composition
 from granum.numerics.smooth import safe_divide
 
@@ -212,7 +212,7 @@ def march_needles(
 def nuclei_share(final: Segments, seeds: int) -> Any:
     """Mass share of the crystals that were born in the batch."""
     masses = final.number * final.beyond(jnp.zeros_like(final.number))
-    return 1.0 - jnp.sum(masses[:seeds]) / jnp.maximum(jnp.sum(masses), 1e-300)
+    return born_share(jnp.sum(masses[:seeds]), jnp.sum(masses))
 
 
 class SteadyNeedles(NamedTuple):
