@@ -10,6 +10,7 @@ from granum.core import registry
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
+from granum.core.index import entries
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, pretty_unit
 from granum.streams.names import pretty
@@ -18,6 +19,7 @@ _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
+_CODE = re.compile(r"``([a-z][a-z0-9_]*)``")
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
@@ -49,6 +51,20 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
         units = [pretty_unit(str(unit)) or "1" for unit in allowed]
         text = text.replace(", ".join(map(str, allowed)), ", ".join(units))
     return _BEGINNING.sub(lambda found: found[0].upper(), text)
+
+
+def summary_words(summary: str) -> str:
+    """What a card is about as a page says it: a parameter by its label, another card by its title.
+
+    >>> summary_words("Pulses of filtrate every ``filtration_time``.")
+    'Pulses of filtrate every ‘filtration time’.'
+    """
+    return _CODE.sub(lambda found: _("‘{label}’").format(label=_called(found[1])), summary)
+
+
+def _called(name: str) -> str:
+    card = next((c for key, c in entries().items() if key.partition(".")[2] == name), None)
+    return card.title if card and not quantity_in(name) else Parameter(name).label
 
 
 def _placed(found: re.Match[str], message: str) -> str:
