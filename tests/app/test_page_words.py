@@ -9,7 +9,7 @@ from tests.app.browsing import Page
 from granum.app.building import palette
 from granum.app.finding import _told
 from granum.app.forms import card_form
-from granum.app.wording import summary_words
+from granum.app.wording import page_words, summary_words
 from granum.core.i18n import language
 from granum.core.index import entries
 from granum.filtration import separator_choice
@@ -30,6 +30,28 @@ def test_a_summary_calls_parameters_by_their_labels(code: str, called: str) -> N
         assert called in next(m for m in palette() if m["model"] == THICKENING)["summary"]
         steam = card_form("materials.steam_enthalpy")["summary"]
         assert entries()["materials.water_enthalpy"].title in steam
+
+
+@pytest.mark.parametrize(
+    ("code", "message", "read"),
+    [
+        (
+            "en",
+            "Stream 'dryer.gas_2' from unit 'hot_liquor' is not there.",
+            "Stream 'dryer · gas 2' from unit 'hot liquor' is not there.",
+        ),
+        (
+            "fr",
+            "Le courant « sel.vapor » de l’appareil « mon_filtre »",
+            "Le courant « sel · vapeur » de l’appareil « mon filtre »",
+        ),
+    ],
+)
+def test_streams_and_units_of_a_message_are_called_as_in_the_drawing(
+    code: str, message: str, read: str
+) -> None:
+    with language(code):
+        assert page_words(message) == read
 
 
 def test_a_limit_of_one_value_is_no_range() -> None:

@@ -19,6 +19,7 @@ _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
+_OF_LINE = re.compile(r"(\b(?:[Ss]tream|[Uu]nit|[Cc]ourant|appareil|unité) (?:'|«\s))([\w.]+)(?='|\s»)")
 _CODE = re.compile(r"``([a-z][a-z0-9_]*)``")
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
@@ -29,7 +30,7 @@ _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
 
 def page_words(message: str, allowed: object = None, kept: Collection[object] = ()) -> str:
     """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by
-    it; a quoted key is meant as such, and so are names that are to be ``kept``.
+    it; a stream or a unit as in the drawing; a quoted key is meant as such, and so are names that are to be ``kept``.
 
     >>> page_words(
     ...     "sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1."
@@ -37,6 +38,7 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
     """  # noqa: E501
     text = _STUDY.sub("", _PLACE.sub(lambda found: _placed(found, message), message))
+    text = _OF_LINE.sub(lambda found: found[0] if found[2] in kept else found[1] + pretty(found[2]), text)
     text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
     text = _WITH_LABEL.sub(_labelled, text)
     text = _ALONE.sub(
