@@ -157,6 +157,8 @@ def test_units_are_renamed_bypassed_and_deleted_from_their_panel_and_specified(p
     page.button("Bypass").click()
     page.until(lambda: "bypass" in case_of(page)["units"])
     solved(page)
+    goes = Select(page.one("[id='goes-séchoir_final-product']"))
+    assert goes.first_selected_option.text == "mixer 2", "a mixer is named, whichever of its inlets is meant"
     page.browser.execute_script("document.querySelector('[data-specifications]').open = true")
     Select(page.one("#spec-vary")).select_by_value("purge.side_fraction")
     Select(page.one("#spec-of")).select_by_value("purge")
@@ -190,6 +192,13 @@ def test_an_open_end_is_dragged_to_an_inlet(page: Page) -> None:
     start = page.one("[data-outlet='crystallizer.product'] .sign")
     end = page.one("[data-inlet='filter.feed'] .reach")
     page.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", start)
+    ActionChains(page.browser).click_and_hold(start).move_to_element(end).perform()
+    assert page.one(".aimed").get_attribute("data-inlet") == "filter.feed"
+    before = case_of(page)
+    ActionChains(page.browser).send_keys(Keys.ESCAPE).release().perform()
+    assert not page.one(".rubber").is_displayed()
+    assert not page.all(".aimed")
+    assert case_of(page) == before
     ActionChains(page.browser).click_and_hold(start).move_to_element(end).release().perform()
     page.until(lambda: "crystallizer_product" in case_of(page).get("streams", {}))
     solved(page)

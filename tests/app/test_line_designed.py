@@ -64,7 +64,8 @@ def test_the_water_is_found_for_the_solids_of_a_stream(page: Page, language: str
     for name, value in (("equals", w["share"]), ("lower", "100 kg/h"), ("upper", "5 t/h")):
         page.leave(page.type(f"#spec-{name}", value))
     page.button(w["spec"]).click()
-    page.one("[data-specification]")
+    written = page.text("[data-specification]")
+    assert f"{w['share']} (100 kg/h … 5 t/h)" in written, "amounts as people write them"
     solved(page)
     page.says(".findings", "1800 kg/h")  # 200 kg/h of solid are a tenth of 2000 kg/h
     page.check()

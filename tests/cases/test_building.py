@@ -125,6 +125,14 @@ def test_a_bypass_mixes_again() -> None:
     assert float(wet.mass_flow) == pytest.approx(0.25 * float(cake.mass_flow), rel=1e-9)
 
 
+def test_a_stream_around_a_unit_is_called_in_the_language_of_whoever_builds() -> None:
+    line = salt_line()
+    with language("fr"):
+        text = b.bypass(line, "dryer")
+    (led,) = (k.name for k in outline(text).links if k.origin == "dérivation.side")
+    assert led == "dérivation_soutirage"
+
+
 def test_a_specification_is_met() -> None:
     text = b.set_specification(
         salt_line(), "purge.side_fraction", "purge.mass_flow", "1000 kg/h", "5 %", "90 %"

@@ -10,6 +10,7 @@ from functools import cache
 from typing import Any
 
 from granum.app.own_substances import asked_of_substances
+from granum.app.wording import summary_words
 from granum.cases import building, describing
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, current_language
@@ -64,7 +65,7 @@ def _palette(_language: str) -> list[dict[str, str]]:
             "model": c.key,
             "domain": c.domain,
             "title": c.title,
-            "summary": c.summary,
+            "summary": summary_words(c.summary),
             "other_names": f"{c.english_title} {c.french_title}",
             "symbol": symbol_of(c.key),
         }

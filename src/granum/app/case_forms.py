@@ -21,7 +21,9 @@ from granum.core.errors import CaseError, GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
+from granum.core.units import format_number, pretty_unit
 from granum.core.utilities import carrier
+from granum.core.written import read_number
 from granum.flowsheet.drawing import ACROSS, Loose, draw
 from granum.flowsheet.stream_figures import FIGURES, PHASES, worth_telling
 from granum.flowsheet.utilities import price_parameter
@@ -116,9 +118,7 @@ def _form_of(found: Outline, across: int) -> dict[str, Any]:
         "own": own_substances(raw),
         "labels": {name: session().label(name) for phase in PARTS for name in listed(mixture, phase)},
         "specifications": {
-            name: {word: str(table.get(word, "")) for word in ("vary", "so_that", "equals", "lower", "upper")}
-            for name, table in specs.items()
-            if isinstance(table, dict)
+            name: _specification(table) for name, table in specs.items() if isinstance(table, dict)
         },
         "stream_figures": _stream_figures(mixture),
         "prices": _prices(found),
@@ -129,6 +129,18 @@ def _form_of(found: Outline, across: int) -> dict[str, Any]:
         "missing": list(found.missing),
         "diagram": draw(found, None, across, [Loose(*port) for port in found.open_inlets], growing=True),
     }
+
+
+def _specification(table: Mapping[str, Any]) -> dict[str, Any]:
+    """A design specification as it is written, and its amounts as people read them."""
+    amounts = {word: case_value(table.get(word, "")) for word in ("equals", "lower", "upper")}
+    shown = {word: _as_read(text) for word, text in amounts.items()}
+    return {word: str(table.get(word, "")) for word in ("vary", "so_that")} | amounts | {"shown": shown}
+
+
+def _as_read(text: str) -> str:
+    number = read_number(text)
+    return f"{format_number(number[0], 9)} {pretty_unit(number[1])}".strip() if number else text
 
 
 def _stream_figures(mixture: Mapping[str, Any]) -> list[dict[str, Any]]:

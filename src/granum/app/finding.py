@@ -10,6 +10,7 @@ from functools import cache
 from granum.app import exercises
 from granum.app.reading import page
 from granum.app.shipped import description_of, examples, pages, title_of
+from granum.app.wording import summary_words
 from granum.core.datasets import dataset
 from granum.core.i18n import LANGUAGES, _, current_language, language
 from granum.core.index import entries
@@ -108,7 +109,7 @@ def _told(kind: str, key: str) -> dict[str, str]:
     """What a hit shows: title, one line, and what sort of thing it is."""
     if kind == "card":
         card = entries()[key]
-        told = card.summary.replace("``", "")
+        told = summary_words(card.summary)
         return {"sort": card.sort, "domain": card.domain, "title": card.title, "summary": told}
     if kind == "line":
         return {"sort": "line", "domain": "", "title": title_of(key), "summary": description_of(key)}

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from granum.app.exercises import with_card
+from granum.app.wording import summary_words
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.conversion import convert
@@ -54,6 +55,7 @@ def card_form(key: str) -> dict[str, Any]:
     card = whole(registry.find(key).card)
     asked = registry.find(key).card.arguments
     data: dict[str, Any] = card.as_json() | {"equation_shown": equation_lines(card.equation)}
+    data["summary"] = summary_words(card.summary)
     data["exercises"] = with_card(key)
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     data["fluid"] = fluid_field(card)

@@ -32,7 +32,7 @@ from granum.app.sending import Shorter, kept, lasting
 from granum.app.shipped import domain_of_line, examples, examples_folder, title_of
 from granum.app.tasks import TASKS, calculate, packed
 from granum.app.telling import Tell
-from granum.app.wording import told
+from granum.app.wording import summary_words, told
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.glossary import glossary, term
@@ -529,7 +529,7 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
             "sort": c.sort,
             "domain": c.domain,
             "title": c.title,
-            "summary": c.summary,
+            "summary": summary_words(c.summary),
             "family": c.family,
             "family_title": _family_title(c) if c.family and size[c.family] > 1 else "",
         }

@@ -10,6 +10,7 @@ from granum.core import registry
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
+from granum.core.index import entries
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, pretty_unit
 from granum.streams.names import pretty
@@ -18,6 +19,8 @@ _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
+_OF_LINE = re.compile(r"(\b(?:[Ss]tream|[Uu]nit|[Cc]ourant|appareil|unité) (?:'|«\s))([\w.]+)(?='|\s»)")
+_CODE = re.compile(r"``([a-z][a-z0-9_]*)``")
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
@@ -27,7 +30,7 @@ _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
 
 def page_words(message: str, allowed: object = None, kept: Collection[object] = ()) -> str:
     """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by
-    it; a quoted key is meant as such, and so are names that are to be ``kept``.
+    it; a stream or a unit as in the drawing; a quoted key is meant as such, and so are names that are to be ``kept``.
 
     >>> page_words(
     ...     "sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1."
@@ -35,6 +38,7 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
     """  # noqa: E501
     text = _STUDY.sub("", _PLACE.sub(lambda found: _placed(found, message), message))
+    text = _OF_LINE.sub(lambda found: found[0] if found[2] in kept else found[1] + pretty(found[2]), text)
     text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
     text = _WITH_LABEL.sub(_labelled, text)
     text = _ALONE.sub(
@@ -49,6 +53,20 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
         units = [pretty_unit(str(unit)) or "1" for unit in allowed]
         text = text.replace(", ".join(map(str, allowed)), ", ".join(units))
     return _BEGINNING.sub(lambda found: found[0].upper(), text)
+
+
+def summary_words(summary: str) -> str:
+    """What a card is about as a page says it: a parameter by its label, another card by its title.
+
+    >>> summary_words("Pulses of filtrate every ``filtration_time``.")
+    'Pulses of filtrate every ‘filtration time’.'
+    """
+    return _CODE.sub(lambda found: _("‘{label}’").format(label=_called(found[1])), summary)
+
+
+def _called(name: str) -> str:
+    card = next((c for key, c in entries().items() if key.partition(".")[2] == name), None)
+    return card.title if card and not quantity_in(name) else Parameter(name).label
 
 
 def _placed(found: re.Match[str], message: str) -> str:

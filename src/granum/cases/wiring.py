@@ -250,7 +250,7 @@ def bypass(case: str, unit: str, inlet: str = "", outlet: str = "", share: str =
         with_value(
             case,
             ("streams",),
-            _free_stream(outline(case), f"{splitter}_side"),
+            _free_stream(outline(case), _named_after(f"{splitter}.side")),
             [f"{splitter}.side", f"{mixer}.bypass"],
         )
     )

@@ -172,19 +172,27 @@ def _judge_cake(machine: dict[str, Any], case: _Case, found: _Judged) -> None:
         * machine["cake_thickness"] ** 2
         / (2.0 * max(per_filtrate, 1e-9) * machine["pressure"])
     )
-    told = format_number(1e3 * machine["cake_thickness"], 2), format_number(forming / 60.0, 2)
+    told = format_number(1e3 * machine["cake_thickness"], 2), _lasting(forming)
     spare = machine["form_time"] / forming
     if spare < 1.0:
         found.against(
-            -log(spare), _("{thick} mm of cake take {time} min to form").format(thick=told[0], time=told[1])
+            -log(spare), _("{thick} mm of cake take {time} to form").format(thick=told[0], time=told[1])
         )
     else:
-        found.good.append(_("{thick} mm of cake form in {time} min").format(thick=told[0], time=told[1]))
+        found.good.append(_("{thick} mm of cake form in {time}").format(thick=told[0], time=told[1]))
         if spare > AMPLE:
             found.against(
                 NEEDLESS * log(spare / AMPLE) / DECADE_OUT,
                 _("presses harder or longer than such a cake needs"),
             )
+
+
+def _lasting(seconds: float) -> str:
+    """A time as one says it to the second figure."""
+    if seconds < 1.0:
+        return _("less than a second")
+    unit, size = ("s", 1.0) if seconds < 60.0 else ("min", 60.0) if seconds < 7200.0 else ("h", 3600.0)
+    return f"{format_number(seconds / size, 2)} {unit}"
 
 
 def _judge_product(machine: dict[str, Any], case: _Case, found: _Judged) -> None:

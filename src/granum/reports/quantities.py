@@ -411,6 +411,8 @@ def _shown(unit: str, sized: float, *numbers: float) -> tuple[str, tuple[float, 
 
 
 def _between(low: float, high: float) -> str:
+    if math.isfinite(low) and low == high:
+        return f"= {format_number(low)}"
     if math.isfinite(low) and math.isfinite(high):
         return f"{format_number(low)} … {format_number(high)}"
     return f"≤ {format_number(high)}" if math.isfinite(high) else f"≥ {format_number(low)}"

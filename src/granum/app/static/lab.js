@@ -20,7 +20,7 @@ import { Plot, decoded } from './plot.js';
 import { UseInLine } from './lab_line.js';
 import { Field, changed, fields, missingOf } from './form.js';
 import { Finder, useCards } from './cards.js';
-import { inLanguage } from './quantity.js';
+import { inLanguage, unitLabel } from './quantity.js';
 
 export function Lab({ state }) {
   const cards = useCards((c) => c.sort === 'lab test');
@@ -244,7 +244,7 @@ function Columns({ columns, table, change }) {
       ${
         p.units?.length > 0 &&
         html`<select aria-label=${t('Unit of {name}', { name: p.label })} value=${unit} disabled=${place < 0} onChange=${(e) => set(p, place, e.target.value)}>
-        ${!p.units.some((u) => u.unit === unit) && html`<option value=${unit} selected>${unit || '—'}</option>`}${p.units.map((u) => html`<option value=${u.unit} selected=${u.unit === unit}>${u.label || '1'}</option>`)}</select>`
+        ${!p.units.some((u) => u.unit === unit) && html`<option value=${unit} selected>${unit || '—'}</option>`}${p.units.map((u) => html`<option value=${u.unit} selected=${u.unit === unit}>${unitLabel(u)}</option>`)}</select>`
       }</div></div>`;
   })}</div>`;
 }

@@ -48,7 +48,9 @@ export function FeedForm({ name, item, form, typedIn, build, spot = 'form' }) {
 }
 
 /** A menu of the places where a stream may come from or go to; what is taken already says so. */
-export function EndMenu({ id, label, value, ends, none, pick, own = '' }) {
+export function EndMenu({ id, label, value: end, ends, none, pick, own = '' }) {
+  // a mixer takes any number of streams: it is one place, whatever its inlet is called
+  const value = !end || ends.some((one) => one.value === end) ? end : end.split('.')[0];
   const free = ends.filter((end) => !end.taken || end.value === value);
   const taken = ends.filter((end) => end.taken && end.value !== value && end.value.split('.')[0] !== own);
   const option = (end) =>

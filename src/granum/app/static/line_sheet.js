@@ -54,9 +54,24 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
     if (e.key === '+' || e.key === '=') by(1.25);
     else if (e.key === '-') by(0.8);
     else if (e.key === '0') setZoom(1);
+    else if (e.key === 'Escape' && drag.current?.moved) letGo();
     else if ((e.key === 'Enter' || e.key === ' ') && thing(e.target)) act(thing(e.target));
     else return;
     e.preventDefault();
+  };
+  /** Where an open end would go if it were let go there; nothing but a machine or an inlet takes it. */
+  const aim = (e) => {
+    const below = document.elementFromPoint(e.clientX, e.clientY);
+    return below?.closest?.('[data-inlet]') || below?.closest?.('[data-unit]');
+  };
+  const aimed = (found) => {
+    for (const g of sheet.current.querySelectorAll('.aimed')) if (g !== found) g.classList.remove('aimed');
+    found?.classList.add('aimed');
+  };
+  const letGo = () => {
+    drag.current = null;
+    aimed(null);
+    sheet.current.parentElement.querySelector('.rubber').style.display = 'none';
   };
   const down = (e) => {
     if (e.button) return;
@@ -88,6 +103,7 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
         y2: e.clientY - box.top,
       };
       for (const [name, value] of Object.entries(ends)) line.firstElementChild.setAttribute(name, value);
+      aimed(aim(e));
     } else if (e.pointerType === 'mouse') {
       frame.current.scrollLeft = d.left - (e.clientX - d.x);
       frame.current.scrollTop = d.top - (e.clientY - d.y);
@@ -95,20 +111,15 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
   };
   const up = (e) => {
     const d = drag.current;
-    drag.current = null;
-    sheet.current.parentElement.querySelector('.rubber').style.display = 'none';
+    letGo();
     if (!d?.moved || !d.outlet) return;
-    const below = document.elementFromPoint(e.clientX, e.clientY);
-    const inlet = below?.closest?.('[data-inlet]')?.dataset.inlet;
-    const unit = below?.closest?.('[data-unit]')?.dataset.unit;
-    if (inlet || unit) connect(d.outlet, inlet || unit);
+    const found = aim(e)?.dataset;
+    if (found) connect(d.outlet, found.inlet || found.unit);
   };
   const click = (e) => {
     const found = thing(e.target);
     if (found) act(found);
   };
   return html`<div class="row zoom"><button class="button" aria-label=${t('Zoom out')} title=${t('Zoom out')} onClick=${() => by(0.8)}>−</button><button class="button" aria-label=${t('Original size')} onClick=${() => setZoom(1)}>${Math.round(100 * zoom)} %</button><button class="button" aria-label=${t('Zoom in')} title=${t('Zoom in')} onClick=${() => by(1.25)}>+</button></div>
-    <div class="diagram" ref=${frame} tabindex="0" role="region" aria-label=${t('Flow diagram')} onClick=${click} onKeyDown=${key} onPointerDown=${down} onPointerMove=${move} onPointerUp=${up} onPointerCancel=${() => {
-      drag.current = null;
-    }}><div class="paper"><div ref=${sheet} dangerouslySetInnerHTML=${{ __html: svg }} /><svg class="rubber" aria-hidden="true"><line /></svg></div></div>`;
+    <div class="diagram" ref=${frame} tabindex="0" role="region" aria-label=${t('Flow diagram')} onClick=${click} onKeyDown=${key} onPointerDown=${down} onPointerMove=${move} onPointerUp=${up} onPointerCancel=${letGo}><div class="paper"><div ref=${sheet} dangerouslySetInnerHTML=${{ __html: svg }} /><svg class="rubber" aria-hidden="true"><line /></svg></div></div>`;
 }

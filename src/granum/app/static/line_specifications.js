@@ -78,7 +78,7 @@ export function Specifications({ form, build }) {
   return html`<details data-specifications><summary>${t('Design specifications')} <span class="dim">${Object.keys(form.specifications).length || ''}</span></summary>
     ${Object.entries(form.specifications).map(
       ([name, spec]) =>
-        html`<p class="small" data-specification=${name}>${t('{input} is sought so that {figure} is {value}', { input: inputs.find((one) => one.value === spec.vary)?.label || pretty(spec.vary), figure: told(all, spec.so_that), value: spec.equals })} <span class="dim">(${spec.lower} … ${spec.upper})</span> <button class="button" onClick=${() => build('remove_specification', { name })}>${t('Remove')}</button></p>`,
+        html`<p class="small" data-specification=${name}>${t('{input} is sought so that {figure} is {value}', { input: inputs.find((one) => one.value === spec.vary)?.label || pretty(spec.vary), figure: told(all, spec.so_that), value: spec.shown.equals })} <span class="dim">(${spec.shown.lower} … ${spec.shown.upper})</span> <button class="button" onClick=${() => build('remove_specification', { name })}>${t('Remove')}</button></p>`,
     )}
     <div class="ports">${menu(
       'spec-vary',

@@ -13,6 +13,8 @@ const raised = (power) =>
 export const printed = (text) => text.replace(/(\d)e([-+]?\d+)/g, (_whole, last, power) => `${last} × 10${raised(power)}`);
 const NUMBER =
   /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…)\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+|\s*[×x·*]\s*10(?:\^?[-+−]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?:\/\d+(?![\d.,]))?/iy;
+/** A unit in a menu; what has none stands as in the head of a table. */
+export const unitLabel = (unit) => unit.label || '–';
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
 
 /** Text such as "1 200,5 cm2" or "2 4 8 um" cut where the unit begins; what the number and the unit mean is for the server to say. */
@@ -130,6 +132,7 @@ export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, l
   const [typed, show] = useState(null);
   const [unit, setUnit] = useState(given.unit);
   const raw = useRef(null);
+  const offers = useRef(false);
   const sent = useRef(text);
   const focused = useRef(false);
   const holder = useRef(onChange);
@@ -187,8 +190,10 @@ export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, l
     setTyped(null);
     if (number) send(joined({ number, unit: next }));
   };
-  const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: u.label || '1' }));
+  const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: unitLabel(u) }));
   if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu });
+  const plain = p.kind === 'ratio' && !units[0]?.unit && units.every((u) => ['', 'percent'].includes(u.unit));
+  if (!plain || menu) offers.current = true; // a count or an exponent has no unit to choose, unless somebody wrote %
   const shown = p.series ? inLanguage(given.number) : printed(inLanguage(given.number));
   const wrong = reading?.problem || problem;
   const example = p.default_shown?.number ?? p.hint ?? (p.series ? (p.example?.number ?? '1 2 3') : '');
@@ -205,6 +210,6 @@ export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, l
           tracked(settle().then(() => onEnter?.()));
         }
       }} />
-    ${units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>
+    ${offers.current && units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>
     ${wrong ? html`<div class="out small told" role="status">${wrong}</div>` : reading?.shown ? html`<div class="dim small" role="status" data-echo>= ${reading.shown}</div>` : ''}</div>`;
 }

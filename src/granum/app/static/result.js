@@ -1,5 +1,6 @@
 // The right column: what came out and whether to believe it.
 import { html, t, link, settings, useState, useKept } from './core.js';
+import { unitLabel } from './quantity.js';
 import { Sensitivity } from './sensitivity.js';
 import { Series } from './series.js';
 import { Spread } from './spread.js';
@@ -66,6 +67,6 @@ function Value({ row, unit, setUnit }) {
     e.preventDefault();
   }}>${text}</span>${
     row.units.length > 1 &&
-    html`<span class="units"><span aria-hidden="true">▾</span><select aria-label=${t('Unit of {name}', { name: row.label })} value=${chosen.unit} onChange=${(e) => setUnit(e.target.value)}>${row.units.map((u) => html`<option value=${u.unit} selected=${u.unit === chosen.unit}>${u.label || '1'}</option>`)}</select></span>`
+    html`<span class="units"><span aria-hidden="true">▾</span><select aria-label=${t('Unit of {name}', { name: row.label })} value=${chosen.unit} onChange=${(e) => setUnit(e.target.value)}>${row.units.map((u) => html`<option value=${u.unit} selected=${u.unit === chosen.unit}>${unitLabel(u)}</option>`)}</select></span>`
   }<button class="copy" title=${full} aria-label=${t('Copy {name} with all digits', { name: row.label })} onClick=${copy}>${copied ? '✓' : COPY}</button></span>`;
 }

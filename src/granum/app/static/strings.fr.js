@@ -429,7 +429,7 @@ export const french = {
   'fluid': 'fluide',
   'Remove {name}': 'Retirer {name}',
   'Add': 'Ajouter',
-  '{input} is sought so that {figure} is {value}': '{input} est cherché pour que {figure} vaille {value}',
+  '{input} is sought so that {figure} is {value}': 'On cherche {input} pour que {figure} vaille {value}',
   'Design specifications': 'Spécifications de conception',
   'sought': 'cherché',
   'so that, in': 'pour que, dans',

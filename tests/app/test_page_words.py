@@ -1,0 +1,85 @@
+"""What a page prints reads as people write: labels for names, no unit where there is none to choose."""
+
+from __future__ import annotations
+
+import pytest
+from selenium.webdriver.common.keys import Keys
+from tests.app.browsing import Page
+
+from granum.app.building import palette
+from granum.app.finding import _told
+from granum.app.forms import card_form
+from granum.app.wording import page_words, summary_words
+from granum.core.i18n import language
+from granum.core.index import entries
+from granum.filtration import separator_choice
+from granum.reports.quantities import check_row
+from granum.streams.units import Check
+
+THICKENING = "filtration.thickening_filter"
+
+
+@pytest.mark.parametrize(
+    ("code", "called"), [("en", "every ‘filtration time’"), ("fr", "à chaque « durée de filtration »")]
+)
+def test_a_summary_calls_parameters_by_their_labels(code: str, called: str) -> None:
+    with language(code):
+        assert not [key for key, card in entries().items() if "`" in summary_words(card.summary)]
+        assert called in card_form(THICKENING)["summary"]
+        assert called in _told("card", THICKENING)["summary"]
+        assert called in next(m for m in palette() if m["model"] == THICKENING)["summary"]
+        steam = card_form("materials.steam_enthalpy")["summary"]
+        assert entries()["materials.water_enthalpy"].title in steam
+
+
+@pytest.mark.parametrize(
+    ("code", "message", "read"),
+    [
+        (
+            "en",
+            "Stream 'dryer.gas_2' from unit 'hot_liquor' is not there.",
+            "Stream 'dryer · gas 2' from unit 'hot liquor' is not there.",
+        ),
+        (
+            "fr",
+            "Le courant « sel.vapor » de l’appareil « mon_filtre »",
+            "Le courant « sel · vapeur » de l’appareil « mon filtre »",
+        ),
+    ],
+)
+def test_streams_and_units_of_a_message_are_called_as_in_the_drawing(
+    code: str, message: str, read: str
+) -> None:
+    with language(code):
+        assert page_words(message) == read
+
+
+def test_a_limit_of_one_value_is_no_range() -> None:
+    row = check_row(
+        Check("crystals in the steady state (1 if there are any)", 1.0, 1.0, 1.0, "dimensionless", "")
+    )
+    assert row.ok
+    assert row.allowed == "= 1"
+
+
+@pytest.mark.parametrize(
+    ("size", "told"), [("300 um", "less than a second"), ("20 um", "2 s"), ("2 um", "3.4 min")]
+)
+def test_a_cake_that_forms_at_once_is_not_timed_in_millionths(size: str, told: str) -> None:
+    found = separator_choice(size, 1100, 0.1, "20 m^3/hour")
+    place = found.separator.index("rotary vacuum drum")
+    reasons = f"{found.speaks_for[place]}; {found.speaks_against[place]}"
+    assert told in next(text for text in reasons.split("; ") if "of cake" in text)
+
+
+def test_a_ratio_asks_for_no_unit_and_takes_a_percentage_all_the_same(page: Page) -> None:
+    page.open(f"calculate/{THICKENING}", "fr")
+    assert not [e.text for e in page.all(".pairs option") if e.text == "1"]
+    assert "–" in [e.text for e in page.all("#field-void_fraction ~ select option")]
+    assert not page.all("#field-compressibility ~ select")
+    page.type("#field-compressibility", "50 %").send_keys(Keys.TAB)
+    page.settle()
+    menu = page.one("#field-compressibility ~ select")
+    assert menu.get_attribute("value") in ("%", "percent")
+    assert page.one("#field-compressibility").get_attribute("value") == "50"
+    page.check()
