@@ -102,7 +102,7 @@ def at_rung(
     """
     if rung == 0:
         given = begin or beginning(sheet, targets)
-        along = ALONG_CHORDS | {"known": given.learned} if given.learned else {}
+        along: dict[str, Any] = ALONG_CHORDS | {"known": given.learned} if given.learned else {}
         return design(sheet, targets, sheets=True, **given.how(), **along)
     left = beginning(sheet, targets, design(sheet, targets, max_steps=QUICK * (1 + len(targets))))
     return design(sheet, targets, sheets=True, **left.how(), **EXACT)
