@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import equinox as eqx
@@ -110,6 +111,9 @@ def _chlorides(mixture: Mixture, x: Any) -> dict[str, Stream]:
 def mixed(classes: int) -> dict[str, Case]:
     plain = crystallizers(classes)
     nitrate = plain["msmpr"].mixture
+
+    masses = zip(nitrate.liquids, (0.018015, 0.1011, 0.046068), strict=True)
+    molten = replace(nitrate, liquids=tuple(replace(s, molar_mass=m) for s, m in masses))
 
     def dissolving(name: str) -> Case:
         """A batch or tube whose crystals dissolve in an undersaturated solution."""
@@ -227,10 +231,10 @@ def mixed(classes: int) -> dict[str, Case]:
             _melt,
             lambda f, u: SuspensionMeltCrystallizer(
                 260.0 + 15.0 * u[0],
-                258.0 + 15.0 * u[0] - 20.0 * u[1],
                 334e3,
                 0.1 + 0.8 * u[3],
                 1.8e-3,
+                temperature=258.0 + 15.0 * u[0] - 20.0 * u[1],
                 crystal_size=5e-5 + 1e-3 * u[2],
                 wash_ratio=1.5 * u[4],
                 wash_efficiency=0.8 + 0.2 * u[5],
@@ -238,6 +242,22 @@ def mixed(classes: int) -> dict[str, Case]:
                 bed_velocity=10.0 ** (-4.0 + 2.0 * u[3]),
                 inclusion_fraction=0.01 * u[1],
                 impurity_fraction_eutectic=0.3 + 0.6 * u[5],
+                pure_liquid="water",
+            ),
+        ),
+        "wash column at its freezing point": Case(
+            molten,
+            _melt,
+            lambda f, u: SuspensionMeltCrystallizer(
+                260.0 + 15.0 * u[0],
+                334e3,
+                0.1 + 0.8 * u[3],
+                1.8e-3,
+                wash_ratio=1.5 * u[4],
+                wash_efficiency=0.8 + 0.2 * u[5],
+                washed_height=0.02 + u[4],
+                bed_velocity=10.0 ** (-4.0 + 2.0 * u[3]),
+                inclusion_fraction=0.01 * u[1],
                 pure_liquid="water",
             ),
         ),

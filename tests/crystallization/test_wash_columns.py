@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.sharing.places import EXAMPLES
 
+import granum as gr
+from granum.core.errors import CaseError
 from granum.core.flags import collect
 from granum.crystallization.equipment.suspension_melt import SuspensionMeltCrystallizer
+from granum.crystallization.formulas.melt import freezing_temperature_ideal
 from granum.crystallization.formulas.wash_columns import impurity_ratio_wash_column, wash_front
 from granum.porous.displacement import axial_dispersion
 from granum.streams.from_materials import mixture_of
@@ -51,7 +56,7 @@ def test_what_crystals_carry_is_a_source_in_the_same_equation(reflux, number, ca
 def test_more_wash_never_leaves_more_impurity():
     """Inclusions had gone into the product whole, however much of it returned as wash."""
     left = [
-        float(column(wash_ratio=w, inclusion_fraction=0.01).operate(feed=FEED).figures.impurity_ratio)
+        float(column(wash_ratio=w, inclusion_fraction=0.01).operate(feed=FEED).figures.impurity_ratio_washed)
         for w in (0.9, 1.05, 1.5, 3.0)
     ]
     assert np.all(np.diff(left) <= 1e-12)
@@ -103,7 +108,7 @@ def test_balance_of_the_column():
     water = f.product_mass_flow * f.impurity_fraction_product + 0.5 * f.impurity_fraction_residue
     assert float(water) == pytest.approx(0.03, rel=1e-12)
     assert float(f.impurity_fraction_product / f.impurity_fraction_residue) == pytest.approx(
-        float(f.impurity_ratio), rel=1e-9
+        float(f.impurity_ratio_washed), rel=1e-9
     )
     voids = float(f.void_fraction_washed)
     up = float(f.crystal_flow) * (1.0 + float(f.recrystallized_share))
@@ -114,13 +119,56 @@ def test_balance_of_the_column():
 def test_more_wash_costs_crystals_and_coarse_crystals_let_through():
     ratio, crystals = (
         [float(getattr(column(wash_ratio=w).operate(feed=FEED).figures, name)) for w in (0.0, 0.5, 0.7, 1.0)]
-        for name in ("impurity_ratio", "crystal_flow")
+        for name in ("impurity_ratio_washed", "crystal_flow")
     )
     assert ratio == sorted(ratio, reverse=True)
     assert crystals == sorted(crystals)
     fine, coarse = (column(crystal_size=L).operate(feed=FEED).figures for L in (1e-4, 1e-3))
     assert fine.pressure_drop == pytest.approx(100.0 * coarse.pressure_drop, rel=1e-9)
-    assert fine.impurity_ratio <= coarse.impurity_ratio
+    assert fine.impurity_ratio_washed <= coarse.impurity_ratio_washed
+
+
+def test_xylenes_freeze_together_where_a_maker_of_wash_columns_says():
+    """GEA Messo PT: the eutectic of the xylenes has about 13 % of the para isomer.
+
+    Here with the meta isomer alone: fusion at 286.4 K with 17.1 kJ/mol (para, NIST and CRC) and at 225.3 K
+    with 11.6 kJ/mol (meta, recalled).
+    """
+    M = 0.106165
+    x = np.linspace(0.05, 0.3, 2501)
+    para = np.asarray(freezing_temperature_ideal(x, 286.4, 17.1e3 / M, M))
+    meta = np.asarray(freezing_temperature_ideal(1.0 - x, 225.3, 11.6e3 / M, M))
+    eutectic = x[np.argmin(np.abs(para - meta))]
+    assert eutectic == pytest.approx(0.13, abs=0.015)
+
+
+def test_the_crystallizer_is_at_the_freezing_point_of_what_it_leaves():
+    unit = column(temperature=None, wash_ratio=0.6)
+    made = unit.operate(feed=FEED)
+    residue = made.outlets.residue
+    moles = np.asarray(residue.liquid) / [s.molar_mass for s in ACID.liquids]
+    T = freezing_temperature_ideal(moles[0] / moles.sum(), 289.75, 195e3, ACID.liquids[0].molar_mass)
+    assert float(residue.temperature) == pytest.approx(float(T), abs=1e-6)
+    given = column(temperature=float(residue.temperature), wash_ratio=0.6).operate(feed=FEED)
+    assert float(given.figures.impurity_ratio_washed) == pytest.approx(
+        float(made.figures.impurity_ratio_washed), rel=1e-6
+    )
+    pure = empty(ACID, 298.15).replace(liquid=jnp.array([1.0, 0.0]))
+    assert float(unit.operate(feed=pure).outlets.residue.temperature) == pytest.approx(289.75, abs=1e-5)
+
+
+def test_the_line_makes_para_xylene_to_specification():
+    """Para-xylene of commerce has 99.7 % at least (recalled)."""
+    run = gr.read(EXAMPLES / "wash-column" / "line.toml").solve()
+    assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
+    assert all(check.ok for unit in run.units.values() for check in unit.checks)
+    assert run.units["crystallizer"].values.impurity_fraction_product < 0.003
+
+
+def test_a_melt_of_unknown_molar_mass_asks_for_a_temperature():
+    bare = replace(ACID, liquids=tuple(replace(s, molar_mass=float("nan")) for s in ACID.liquids))
+    with pytest.raises(CaseError, match="molar mass of 'acetic acid', 'water'"):
+        column(temperature=None)(empty(bare, 298.15).replace(liquid=FEED.liquid))
 
 
 @pytest.mark.parametrize(

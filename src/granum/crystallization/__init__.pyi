@@ -242,6 +242,7 @@ from granum.crystallization.formulas.ionizable import (
 from granum.crystallization.formulas.melt import (
     Segregation as Segregation,
     distribution_coefficient_effective as distribution_coefficient_effective,
+    freezing_temperature_ideal as freezing_temperature_ideal,
     impurity_ratio_sweating as impurity_ratio_sweating,
     impurity_ratio_zone as impurity_ratio_zone,
     impurity_ratio_zone_ultimate as impurity_ratio_zone_ultimate,

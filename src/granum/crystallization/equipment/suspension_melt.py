@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.errors import CaseError
-from granum.core.flags import unsolved
+from granum.core.flags import collect, unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
@@ -34,8 +34,10 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.layer_melt import TOO_IMPURE, impurity_in
+from granum.crystallization.formulas.melt import freezing_temperature_ideal
 from granum.crystallization.formulas.wash_columns import impurity_ratio_wash_column, wash_front
 from granum.crystallization.kinds import InclusionShare, OpenShare
+from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.porous.displacement import axial_dispersion
 from granum.porous.formulas.darcy import pressure_drop_darcy
@@ -45,6 +47,7 @@ from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, cooled, heated
 
 DIFFUSIVITY = 1e-9  # m²/s of an impurity in the melt, next to nothing beside the dispersion between grains
+LEAST_PURE = 1e-6  # mole fraction, with which a melt that cannot freeze so far is refused elsewhere
 TOO_WARM = "The crystallizer is not colder than the melting point of the pure substance: cool it further."
 SHUT = "The melt that freezes at the wash front shuts the bed: give a warmer crystallizer or a looser bed."
 UNWASHED = "More wash returns than the column melts: give a smaller wash ratio."
@@ -57,7 +60,7 @@ class SuspensionMeltFigures(NamedTuple):
     product_recovery: Ratio
     impurity_fraction_product: MassFraction
     impurity_fraction_residue: MassFraction
-    impurity_ratio: Ratio
+    impurity_ratio_washed: Ratio
     crystal_flow: MassFlow
     wash_flow: MassFlow
     recrystallized_share: Ratio
@@ -79,7 +82,8 @@ class SuspensionMeltOutlets(NamedTuple):
 class Washed(NamedTuple):
     """What the column does: impurity of the product over that of the mother liquor, share of the impurity fed
     that ends in the product, crystals per product, wash per crystal, melt frozen at the front per crystal,
-    voids above it, the product's place, impurity fed.
+    voids above it, the product's place, impurity fed, temperature of the crystallizer, whether the bed is
+    open above the front.
     """
 
     ratio: Any
@@ -90,11 +94,13 @@ class Washed(NamedTuple):
     voids: Any
     pure: int
     others: Any
+    temperature: Any
+    is_open: Any
 
 
 @equipment(
     "suspension_melt_crystallizer",
-    source="arkenbout1995; player1969; jansens2000",
+    source="arkenbout1995; player1969; schroder1893; jansens2000",
     title="Melt crystallizer with a suspension and a wash column",
     equation=r"\dot m_P = \dot m_c\,[1 + b\,(1 - w)],\quad "
     r"b = (1+r)\,\frac{\varepsilon'\rho_l}{(1-\varepsilon')\rho_c}",
@@ -104,17 +110,18 @@ class SuspensionMeltCrystallizer(Unit):
     product that flows against it, and melts them.
 
     All mother liquor leaves as the residue, at the temperature of the crystallizer, which is its freezing
-    point and has to be given. The wash ratio counts what passes the front unfrozen, in voids of the washed
-    bed: 1 just fills them. The bed disperses the front as grains do; of the voids a share stays unwashed, and
-    crystals hold inclusions. Solids and gas that come in leave with the residue. The pressure drop is that of
-    the washed height, by Darcy and Carman; what pushes the bed must overcome it.
+    point: that of an ideal melt, unless it is given. The wash ratio counts what passes the front unfrozen, in
+    voids of the washed bed: 1 just fills them. The bed disperses the front as grains do; of the voids a share
+    stays unwashed, and crystals hold inclusions; what is melted returns in part with the wash. Solids and gas
+    that come in leave with the residue. The pressure drop is that of the washed height, by Darcy and Carman;
+    what pushes the bed must overcome it.
     """
 
     melting_temperature: Temperature
-    temperature: Temperature
     heat_of_fusion: SpecificEnergy
     frozen_fraction: OpenShare
     dynamic_viscosity: DynamicViscosity
+    temperature: Temperature | None = eqx.field(kw_only=True, default=None)
     crystal_size: Length = eqx.field(kw_only=True, default=300e-6)
     wash_ratio: Annotated[Ratio, Within(0.0, 3.0)] = eqx.field(kw_only=True, default=1.05)
     wash_efficiency: Fraction = eqx.field(kw_only=True, default=0.999)
@@ -144,33 +151,79 @@ class SuspensionMeltCrystallizer(Unit):
         names = [s.name for s in feed.mixture.liquids]
         if not names:
             raise CaseError(_("The mixture has no liquid that could freeze."))
-        pure, card = (
-            feed.mixture.index("liquids", self.pure_liquid) if self.pure_liquid else 0,
-            type(self).card,
-        )
-        colder = self.melting_temperature - self.temperature
-        unsolved(colder > 0.0, card, reason=TOO_WARM)
-        front = wash_front(
-            jnp.maximum(colder, 1e-6), self.specific_heat_capacity, self.heat_of_fusion, self.void_fraction
-        )
+        pure = feed.mixture.index("liquids", self.pure_liquid) if self.pure_liquid else 0
+        given, card = self.temperature, type(self).card
+        T = self._freezing(feed, pure) if given is None else jnp.asarray(given, dtype=float)
+        there = jnp.asarray(True) if given is not None else feed.liquid_flow > feed.liquid[pure]
+        unsolved((self.melting_temperature > T) | ~there, card, reason=TOO_WARM)
+        washed, made = self._washed(feed, pure, T)
+        unsolved(washed.is_open, card, reason=SHUT)
+        unsolved(made > 0.0, card, reason=UNWASHED)
+        left = (1.0 - self.frozen_fraction) * feed.liquid_flow - (1.0 - washed.impurity_share) * washed.others
+        unsolved(left >= -1e-12 * feed.liquid_flow, card, reason=TOO_IMPURE)
+        return washed
+
+    def _washed(self, feed: Stream, pure: int, temperature: Any) -> tuple[Washed, Any]:
+        """The column under crystals as cold as this, and the product per crystal."""
+        colder = jnp.maximum(self.melting_temperature - temperature, 1e-6)
+        front = wash_front(colder, self.specific_heat_capacity, self.heat_of_fusion, self.void_fraction)
         frozen = front.recrystallized_share
-        unsolved(front.void_fraction_washed > 0.0, card, reason=SHUT)
-        voids = jnp.where(front.void_fraction_washed > 0.0, front.void_fraction_washed, self.void_fraction)
+        is_open = front.void_fraction_washed > 0.0
+        voids = jnp.where(is_open, front.void_fraction_washed, self.void_fraction)
         liquor = feed.liquid_density / self.crystal_density
         held = (1.0 + frozen) * voids / (1.0 - voids) * liquor
         wash = frozen + held * self.wash_ratio
-        made = 1.0 + held * (1.0 - self.wash_ratio)
-        unsolved(made > 0.0, card, reason=UNWASHED)
-        made = jnp.where(made > 0.0, made, 1.0)
+        product = 1.0 + held * (1.0 - self.wash_ratio)
+        made = jnp.where(product > 0.0, product, 1.0)
         unreached = (1.0 - self.wash_efficiency) * self.void_fraction / (1.0 - self.void_fraction)
         carried = (unreached + self.inclusion_fraction) * liquor / made
         ratio = jnp.minimum(self._left(made, wash, frozen, held, carried), 1.0)
         g = self.frozen_fraction
         share = g * ratio / (g * ratio + 1.0 - g)
         others = feed.liquid_flow - feed.liquid[pure]
-        left = (1.0 - g) * feed.liquid_flow - (1.0 - share) * others
-        unsolved(left >= -1e-12 * feed.liquid_flow, card, reason=TOO_IMPURE)
-        return Washed(ratio, share, 1.0 / made, wash, frozen, voids, pure, others)
+        return Washed(
+            ratio, share, 1.0 / made, wash, frozen, voids, pure, others, temperature, is_open
+        ), product
+
+    def _freezing(self, feed: Stream, pure: int) -> Any:
+        """Freezing point of the mother liquor that is left, K: an ideal melt.
+
+        What the column lets through and the freezing point tell each other; the root lies between a column
+        that holds back nothing and one that holds back all.
+        """
+        masses = [s.molar_mass for s in feed.mixture.liquids]
+        unknown = [s.name for s in feed.mixture.liquids if not s.molar_mass > 0.0]
+        if unknown:
+            raise CaseError(
+                _(
+                    "The freezing point of the mother liquor needs the molar mass of {names}: give it in the "
+                    "materials, or give 'temperature'."
+                ).format(names=", ".join(f"'{name}'" for name in unknown))
+            )
+        flowing = feed.liquid_flow > 0.0
+        liquid = jnp.where(flowing, feed.liquid, 1.0)
+        whole = feed.replace(liquid=liquid)
+
+        def beginning(share: Any) -> Any:
+            up = self._product(whole, pure, share, whole.liquid_flow - whole.liquid[pure])
+            moles = (whole.liquid - up) / jnp.asarray(masses)
+            x = jnp.maximum(safe_divide(moles[pure], jnp.sum(moles), 1.0), LEAST_PURE)
+            with collect():
+                return freezing_temperature_ideal(
+                    x, self.melting_temperature, self.heat_of_fusion, masses[pure]
+                )
+
+        def misses(T: Any) -> Any:
+            with collect():
+                return T - beginning(self._washed(whole, pure, T)[0].impurity_share)
+
+        found = find_root(misses, beginning(0.0) - 1e-6, beginning(self.frozen_fraction) + 1e-6)
+        return found.value
+
+    def _product(self, feed: Stream, pure: int, share: Any, others: Any) -> Any:
+        """Liquids that go up, kg/s, with this share of the impurity."""
+        up = self.frozen_fraction * feed.liquid_flow - share * others
+        return (feed.liquid * share).at[pure].set(jnp.clip(up, 0.0, feed.liquid[pure]))
 
     def _left(self, made: Any, wash: Any, frozen: Any, held: Any, carried: Any) -> Any:
         """Impurity that rises through the washed bed, over that of the mother liquor."""
@@ -181,18 +234,14 @@ class SuspensionMeltCrystallizer(Unit):
         return impurity_ratio_wash_column(reflux, number, carried)
 
     def outlets(self, inside: Washed, feed: Stream) -> SuspensionMeltOutlets:
-        impure = feed.liquid * inside.impurity_share
-        pure = self.frozen_fraction * feed.liquid_flow - inside.impurity_share * inside.others
-        up = impure.at[inside.pure].set(jnp.clip(pure, 0.0, feed.liquid[inside.pure]))
+        up = self._product(feed, inside.pure, inside.impurity_share, inside.others)
         product = feed.replace(
             solid=0.0 * feed.solid,
             gas=0.0 * feed.gas,
             liquid=up,
             temperature=jnp.asarray(self.melting_temperature, dtype=float),
         )
-        residue = feed.replace(
-            liquid=feed.liquid - up, temperature=jnp.asarray(self.temperature, dtype=float)
-        )
+        residue = feed.replace(liquid=feed.liquid - up, temperature=inside.temperature)
         return SuspensionMeltOutlets(
             product, residue, product.enthalpy_flow + residue.enthalpy_flow - feed.enthalpy_flow
         )
@@ -238,4 +287,4 @@ class SuspensionMeltCrystallizer(Unit):
         melted = figures.crystal_flow * (1.0 + inside.frozen) * self.heat_of_fusion
         rest = outlets.heat_duty - melted
         hot = heated(melted + jnp.maximum(rest, 0.0), self.melting_temperature)
-        return hot | cooled(jnp.minimum(rest, 0.0), self.temperature)
+        return hot | cooled(jnp.minimum(rest, 0.0), inside.temperature)

@@ -10,7 +10,18 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import GrowthRate, MassTransferCoefficient, PositiveNumber, Ratio, Within
+from granum.core.constants import GAS_CONSTANT
+from granum.core.kinds import (
+    GrowthRate,
+    MassTransferCoefficient,
+    MolarMass,
+    MoleFraction,
+    PositiveNumber,
+    Ratio,
+    SpecificEnergy,
+    Temperature,
+    Within,
+)
 from granum.crystallization.kinds import DistributionCoefficient, OpenShare
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
@@ -83,6 +94,37 @@ def segregation_freezing(
     some = g > 1e-9
     mean = jnp.where(some, -jnp.expm1(k * left) / jnp.where(some, g, 1.0), k)
     return Segregation(k * melt, mean, melt)
+
+
+@formula(
+    source="schroder1893; jansens2000",
+    title="Freezing point of an ideal melt (Schröder and van Laar)",
+    equation=r"\frac{1}{T} = \frac{1}{T_m} - \frac{R\,\ln x}{M L_f}",
+    output="temperature",
+    typical={
+        "mole_fraction": (0.3, 0.99),
+        "melting_temperature": (280.0, 400.0),
+        "heat_of_fusion": (1e5, 2e5),
+        "molar_mass": (0.06, 0.15),
+    },
+)
+def freezing_temperature_ideal(
+    mole_fraction: Annotated[MoleFraction, Within(1e-6, 1.0)],
+    melting_temperature: Temperature,
+    heat_of_fusion: SpecificEnergy,
+    molar_mass: MolarMass,
+) -> Temperature:
+    """Temperature at which a pure substance begins to freeze out of a melt that mixes ideally, as isomers
+    nearly do.
+
+    The heat of fusion is taken as constant, which overstates the fall where it is large. Below the eutectic
+    another substance freezes first, which this does not know.
+
+    >>> round(freezing_temperature_ideal(0.5, 286.4, 161e3, 0.106165) - 273.15, 2)
+    -11.97
+    """
+    L = heat_of_fusion * molar_mass
+    return 1.0 / (1.0 / melting_temperature - GAS_CONSTANT * jnp.log(mole_fraction) / L)
 
 
 @formula(
