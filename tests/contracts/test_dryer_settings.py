@@ -34,6 +34,8 @@ from granum.streams.stream import Stream
 COOL = {"compiler_options": PLAIN} if jax.default_backend() == "cpu" else {}
 AIR = 1.2  # more of it for the second run of each
 SLACK = 1e-6
+# each setting by itself: a batch takes as long as the slowest of it, and some take a hundred times the usual
+ONE_BY_ONE = ("spray counter-current",)
 
 
 def told(unit: Any, inlets: dict[str, Stream]) -> tuple[Any, Any, Any]:
@@ -154,7 +156,7 @@ def outcome(
         return jax.vmap(lambda more: judged(build, PRODUCT[product], x, more))(jnp.array([1.0, AIR]))
 
     # batches of one size: a smaller one at the end would be traced and compiled besides
-    batch = next(n for n in range(min(count, 50), 0, -1) if count % n == 0)
+    batch = 1 if name in ONE_BY_ONE else next(n for n in range(min(count, 50), 0, -1) if count % n == 0)
     lost, found, left, dry = jax.jit(lambda xs: jax.lax.map(both, xs, batch_size=batch), **COOL)(rows)
     lost = np.asarray(lost)
     bad = {what: ~np.asarray(ok) & ~lost for what, ok in found.items()}

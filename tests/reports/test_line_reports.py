@@ -12,7 +12,7 @@ from tests.sharing.places import EXAMPLES
 
 from granum.cases import read
 from granum.core.i18n import language
-from granum.reports.html import line_report, note_steps
+from granum.reports.html import line_report, note_steps, size_chart
 from granum.reports.streams import stream_sheet
 from granum.streams.names import pretty
 
@@ -58,7 +58,12 @@ def test_a_step_taken_again_stands_once(run: Any) -> None:
 
 def test_a_report_in_french(run: Any) -> None:
     with language("fr"):
-        page = line_report(run)
+        page, sizes = line_report(run), size_chart(run)
+        drawn = {trace.name for trace in sizes.data} if sizes else set()
+        assert drawn <= {pretty(name) for name in run.streams}
+        for heading in run.charts():
+            unit, _dot, inside = heading.partition(" · ")
+            assert f"<h2>{pretty(unit)} · {inside}" in page
     assert '<html lang="fr">' in page
     for english in ("Findings", "Calculation note", "Flow diagram"):
         assert f"<h2>{english}" not in page

@@ -110,6 +110,7 @@ def drawn_air(found: Profile, feed: Stream, gas: Stream, exhaust: Stream, agains
     steam, which has no dry gas to count by.
     """
     from granum.core.charts import GAS, INK, add_line, axis_title, faded, figure
+    from granum.core.units import format_number
 
     matter, humid = Matter.of(feed, gas), HumidMixture(gas.mixture)
     if bool(matter.is_steam):
@@ -119,7 +120,9 @@ def drawn_air(found: Profile, feed: Stream, gas: Stream, exhaust: Stream, agains
     T = np.array([ends[0][0], *np.asarray(found.gas_temperature)[way], ends[1][0]])
     Y = np.array([ends[0][1], *np.asarray(found.humidity)[way], ends[1][1]])
     drawing = figure(
-        axis_title("temperature", "degC"), axis_title("humidity_ratio"), title=_("Path of the air in a dryer")
+        axis_title("temperature", "degC"),
+        axis_title("humidity_ratio", "kg/kg"),
+        title=_("Path of the air in a dryer"),
     )
     low, high, top = min(T.min(), float(feed.temperature)) - 10.0, T.max() + 10.0, ROOM * Y.max() + 1e-3
     grid = np.linspace(low, high, 200)
@@ -127,7 +130,7 @@ def drawn_air(found: Profile, feed: Stream, gas: Stream, exhaust: Stream, agains
     for phi in HUMIDITIES:
         y = np.minimum(phi * share, 0.99)
         w = float(matter.molar_mass_ratio) * y / (1.0 - y)
-        name = f"{axis_title('relative_humidity')} {phi:.0%}"
+        name = f"{axis_title('relative_humidity')} {format_number(100.0 * phi, 2)} %"
         add_line(drawing, grid[w <= top] - ZERO, w[w <= top], name, color=faded(INK), width=1)
     add_line(drawing, T - ZERO, Y, _("gas"), color=GAS)
     drawing.update_xaxes(range=[low - ZERO, high - ZERO])

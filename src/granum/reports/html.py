@@ -34,6 +34,7 @@ from granum.reports.sankey import ENERGY, sankey
 from granum.reports.streams import audit_text, stream_table
 from granum.reports.templating import page
 from granum.reports.utilities import utility_table
+from granum.streams.names import pretty
 from granum.streams.stream import main_phase
 
 
@@ -139,7 +140,7 @@ def size_chart(run: Any) -> Any:
                 charts.LINES[drawn % len(charts.LINES)],
                 charts.DASHES[drawn // len(charts.LINES) % len(charts.DASHES)],
             )
-            charts.add_line(figure, edges, cumulative, name, color=color, dash=dash)
+            charts.add_line(figure, edges, cumulative, pretty(name), color=color, dash=dash)
             drawn += 1
     return figure if drawn else None
 
@@ -168,7 +169,7 @@ def course_chart(run: Any) -> Any:
             figure,
             from_si(columns[0], across, KINDS["Time"]),
             from_si(flow, upward, KINDS["MassFlow"]),
-            name,
+            pretty(name),
             color=color,
             dash=dash,
         )
@@ -185,7 +186,10 @@ def _charts(run: Any) -> list[tuple[str, str]]:
         _("Run in time"): course_chart(run),
         _("Schedule of the batches"): cycles.chart() if cycles.cycles else None,
     }
-    drawn = [(heading, figure) for heading, figure in (found | run.charts()).items() if figure is not None]
+    for heading, figure in run.charts().items():
+        unit, dot, inside = heading.partition(" · ")
+        found[f"{pretty(unit)}{dot}{inside}"] = figure
+    drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
     for _heading, figure in drawn:
         figure.update_layout(title_text="", margin_t=30)
     return [(heading, charts.as_html(figure, plotly=i == 0)) for i, (heading, figure) in enumerate(drawn)]
