@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from base64 import b64decode
+
+import httpx
 import numpy as np
 import pytest
 from tests.app.browsing import Page
@@ -67,4 +70,31 @@ def test_the_page_draws_it_and_another_on_demand(page: Page) -> None:
     menu.find_element("css selector", "option[value='feed.mass_flow']").click()
     page.until(lambda: page.one("[data-sensitivity='feed.mass_flow'] .spoken").text is not None)
     page.says("[data-sensitivity]", "débit massique (alimentation)")
+    page.check()
+
+
+def test_what_is_inside_a_machine_is_drawn_and_its_sizes_are_called_after_its_ports(address: str) -> None:
+    with httpx.Client(base_url=address, timeout=240, headers={"x-language": "fr"}) as client:
+
+        def charts(key: str) -> dict:
+            case = client.post(f"/api/alone/{key}", json={}).json()["case"]
+            found = client.post("/api/inside", json={"case": case, "place": ""}).json()["charts"]
+            return {chart["heading"]: chart["figure"] for chart in found}
+
+        screened = charts("comminution.screen")["Granulométrie"]
+        assert [line["name"] for line in screened["data"]] == ["alimentation", "refus", "passant"]
+        for line in screened["data"]:
+            share = np.frombuffer(b64decode(line["y"]["bdata"]), dtype=line["y"]["dtype"])
+            assert np.all(np.diff(share) >= 0.0)
+            assert share[0] < 0.1
+            assert share[-1] > 99.9
+        settled = charts("settling.secondary_settler")
+        assert "Couches d’un décanteur secondaire" in settled
+        assert charts("streams.pump") == {}
+
+
+def test_the_page_shows_the_sizes_of_a_machine_alone(page: Page) -> None:
+    page.open("calculate/comminution.screen", "fr")
+    page.one("[data-inside] .js-plotly-plot")
+    assert page.one("[data-inside] h2").text == "Granulométrie"
     page.check()

@@ -301,6 +301,13 @@ def _long_work(app: FastAPI, workspace: Path | None) -> None:
             await crew().run("run", {"case": case} | _folder(workspace, place), _structure(case), request)
         )
 
+    @app.post("/api/inside")
+    async def inside(request: Request, case: Case, place: Place = "") -> Response:
+        """Charts of a piece of equipment alone, as its case: sizes of its streams, what is inside."""
+        return _json(
+            await crew().run("inside", {"case": case} | _folder(workspace, place), _structure(case), request)
+        )
+
     @app.post("/api/report", response_class=HTMLResponse)
     async def report(request: Request, case: Case, place: Place = "") -> HTMLResponse:
         """The report of a case file."""

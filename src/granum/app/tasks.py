@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from granum.app import exercises, studies
 from granum.app.beside import described_curve, sheet, solved_input
 from granum.app.case_forms import read_line
@@ -41,6 +43,7 @@ from granum.reports.quantities import (
 from granum.reports.sankey import diagrams
 from granum.reports.streams import audit_text, stream_figures, stream_look, stream_sheet
 from granum.reports.utilities import utility_table
+from granum.streams.names import port_label
 from granum.studies.intervals import intervals, split
 
 LONGEST = 900.0  # s that a line may take
@@ -308,6 +311,24 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
     )
 
 
+def inside(payload: dict[str, Any], tell: Tell) -> bytes:
+    """What there is to look at in a piece of equipment alone: sizes of its streams, called after its ports,
+    unless all leave as they came; and what it draws of itself.
+    """
+    from granum.reports.html import size_chart
+
+    outcome = _outcome(payload, tell)
+    tell(0.8, _("drawing"))
+    solids = [np.asarray(s.size_fractions) for s in outcome.streams.values() if float(s.solid_flow) > 0.0]
+    changed = len(solids) == 1 or not all(np.allclose(one, solids[0], atol=1e-4) for one in solids)
+    sizes = size_chart(outcome, lambda name: port_label(name.rpartition(".")[2])) if changed else None
+    found = {_("Particle sizes"): sizes} | outcome.charts()
+    drawn = {heading.rpartition(" · ")[2]: figure for heading, figure in found.items() if figure is not None}
+    for figure in drawn.values():
+        figure.update_layout(title_text="", margin_t=30)
+    return packed({"charts": [{"heading": h, "figure": f.to_plotly_json()} for h, f in drawn.items()]})
+
+
 def report(payload: dict[str, Any], tell: Tell) -> bytes:
     """The report of the text of a case file."""
     from granum.reports.html import line_report
@@ -382,6 +403,7 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
         fit,
         table,
         run,
+        inside,
         report,
         tables,
         study_choices,

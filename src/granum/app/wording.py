@@ -19,7 +19,8 @@ _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
-_OF_LINE = re.compile(r"(\b(?:[Ss]tream|[Uu]nit|[Cc]ourant|appareil|unité) (?:'|«\s))([\w.]+)(?='|\s»)")
+# what is quoted after the word for a stream or a unit, of which the ends do in both languages
+_OF_LINE = re.compile(r"((?:[Ss]tream|[Uu]nit|ourant|areil|unité) (?:'|«\s))([\w.]+)(?='|\s»)")
 _CODE = re.compile(r"``([a-z][a-z0-9_]*)``")
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")

@@ -49,7 +49,7 @@ from granum.flowsheet.utilities import (
 )
 from granum.flowsheet.watching import Watch
 from granum.streams.stream import Stream, median_size
-from granum.streams.units import Check, Operated
+from granum.streams.units import Check, Operated, Unit
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -324,9 +324,10 @@ class Run:
 
     def charts(self) -> dict[str, Any]:
         """Pictures of what happens inside the units, by unit and heading."""
+        drawing = [name for name, u in self.sheet.units.items() if type(u).charts is not Unit.charts]
         return {
             f"{name} · {heading}": figure
-            for name, (_steps, made) in self._written.items()
+            for name, (_steps, made) in (self._written.items() if drawing else ())
             for heading, figure in self.sheet.units[name].charts(made, self._inlets(name)).items()
         }
 

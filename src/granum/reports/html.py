@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,8 @@ from granum.reports.templating import page
 from granum.reports.utilities import utility_table
 from granum.streams.names import pretty
 from granum.streams.stream import main_phase
+
+LEAST = 0.01  # percent of the mass that a chart of sizes may leave out at either end
 
 
 def _row(p: Parameter, value: Any, origin: str = "") -> dict[str, str]:
@@ -126,8 +128,10 @@ def _fit_sheets(run: Any) -> list[dict[str, Any]]:
     return sheets
 
 
-def size_chart(run: Any) -> Any:
-    """Cumulative size distributions of the streams that carry solid; None where there is one size."""
+def size_chart(run: Any, called: Callable[[str], str] = pretty) -> Any:
+    """Cumulative size distributions of the streams that carry solid, each ``called`` after its name, over
+    the sizes that occur; None where there is one size.
+    """
     if all(len(stream.mixture.sizes) < 2 for stream in run.streams.values()):
         return None
     figure = charts.figure(charts.axis_title("particle_diameter", "um"), _("cumulative mass / %"), x_log=True)
@@ -140,9 +144,17 @@ def size_chart(run: Any) -> Any:
                 charts.LINES[drawn % len(charts.LINES)],
                 charts.DASHES[drawn // len(charts.LINES) % len(charts.DASHES)],
             )
-            charts.add_line(figure, edges, cumulative, pretty(name), color=color, dash=dash)
+            within = _occurring(cumulative)
+            charts.add_line(figure, edges[within], cumulative[within], called(name), color=color, dash=dash)
             drawn += 1
     return figure if drawn else None
+
+
+def _occurring(cumulative: np.ndarray) -> slice:
+    """From the last edge below which there is nothing to the first above which there is nothing."""
+    first = int(np.flatnonzero(cumulative <= LEAST).max(initial=0))
+    last = int(np.flatnonzero(cumulative >= 100.0 - LEAST).min(initial=cumulative.size - 1))
+    return slice(first, last + 1)
 
 
 def course_chart(run: Any) -> Any:

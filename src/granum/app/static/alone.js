@@ -20,6 +20,7 @@ import { Finder, useCards } from './cards.js';
 import { Field } from './form.js';
 import { keepDraft, packed } from './drafts.js';
 import { StreamTable } from './line_streams.js';
+import { Plot } from './plot.js';
 import { Sensitivity } from './sensitivity.js';
 import { Utilities } from './utilities.js';
 
@@ -122,7 +123,7 @@ function Work({ card, given }) {
       ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${form.data.parameters.find((p) => p.name === sought.name).label} />`}
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
       <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />
-      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text}><${Sensitivity} card=${card} values=${values} case=${text} old=${busy || Boolean(problem)} choice=${drawn} setChoice=${setDrawn} /></${Outcome}>`}</div></section>`;
+      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text}><${Inside} card=${card} text=${text} old=${busy || Boolean(problem)} /><${Sensitivity} card=${card} values=${values} case=${text} old=${busy || Boolean(problem)} choice=${drawn} setChoice=${setDrawn} /></${Outcome}>`}</div></section>`;
 }
 
 /** Streams by the ports of the one machine. */
@@ -133,6 +134,21 @@ const ports = (rows, labels = {}) =>
       return [name, labels[port] || port.replaceAll('_', ' ')];
     }),
   );
+
+/** What there is to look at: asked for once the figures stand, so that they never wait for it. */
+function Inside({ card, text, old }) {
+  const seen = useRef(null); // the charts before stay, greyed, until others come
+  const { data, error } = useAnswer(
+    (signal) => (text && !old ? ask('/api/inside', { case: text, place: '' }, { signal }) : Promise.resolve(null)),
+    [text, old],
+    20,
+  );
+  if (data) seen.current = data;
+  if (error) return html`<p class="small dim">${error.message}</p>`;
+  return seen.current?.charts.map(
+    (c) => html`<section data-inside=${c.heading} aria-label=${c.heading}><h2>${c.heading}</h2><${Plot} figure=${c.figure} label=${c.heading} name=${`${card.card}-${c.heading}`} /></section>`,
+  );
+}
 
 function Outcome({ data, form, text, children }) {
   const [unit] = Object.values(data.units);
