@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.conversion import convert
@@ -181,7 +182,11 @@ def streams_by_product(
 
 
 def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
-    """Which of the line's products is the main one, by its place among them; may be traced."""
+    """Which of the line's products is the main one, by its place among them; may be traced.
+
+    The one with most solid; without solids that with most beside the solvent, of those that a unit calls its
+    product if there are any: a melt is purified by leaving what is beside it.
+    """
     leaving = [streams[name] for name in line.products]
     solid, mass = (jnp.stack([getattr(s, n) for s in leaving]) for n in ("solid_flow", "mass_flow"))
     liquid = jnp.stack([s.liquid for s in leaving])
@@ -189,6 +194,8 @@ def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
     # of a mixture without liquids nothing is the solvent
     solvent = jnp.argmax(jnp.sum(liquid, axis=0)) if liquid.shape[1] else 0
     dissolved = whole - liquid @ (jnp.arange(liquid.shape[1]) == solvent)
+    called = np.array([line.link(name).origin.endswith(".product") for name in line.products])
+    dissolved = jnp.where(called, dissolved, 0.0) if called.any() else dissolved
     worth = mass
     for matter in (whole, dissolved, solid):
         worth = jnp.where(jnp.sum(matter) > trace, matter, worth)
