@@ -142,6 +142,7 @@ def test_what_cannot_be_is_said():
 def test_the_line_makes_glacial_acid():
     """Food-grade glacial acetic acid holds 99.8 % at least (FCC; recalled)."""
     run = gr.read(EXAMPLES / "melt-crystallization" / "line.toml").solve()
+    assert run.product == "product"
     assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
     assert all(check.ok for unit in run.units.values() for check in unit.checks)
     assert run.units["layers"].values.impurity_fraction_product < 0.002
