@@ -153,14 +153,27 @@ def test_the_next_case_goes_on_from_what_was_carried(rung: int) -> None:
     assert int(found.solution.steps[0]) < 10
 
 
-def test_a_study_finds_what_the_line_does_alone() -> None:
+@pytest.mark.parametrize(("rise", "lost"), [(8e3, LOST), (1e3, 0.0)])
+def test_a_study_finds_what_the_line_does_alone(rise: float, lost: float) -> None:
     over = {
         "air.pressure": {"from": "1.2 bar", "to": "2 bar", "steps": 3},
         "split.side_fraction": {"from": 0.3, "to": 0.6, "steps": 2},
     }
     table = {"kind": "map", "over": over, "outputs": ["lowered.pressure"]}
-    outcome = Study.of("pressures", table, LineSubject.of(line(first="fan")), {}).run()
+    outcome = Study.of("pressures", table, LineSubject.of(line(rise=rise, first="fan")), {}).run()
     assert outcome.cases.fine.all()
     assert outcome.cases.y[:, 0].tolist() == pytest.approx(
-        [fed - LOST for fed in (120e3, 160e3, 200e3) for _side in range(2)], rel=1e-12
+        [fed - lost for fed in (120e3, 160e3, 200e3) for _side in range(2)], rel=1e-12
     )
+
+
+def test_a_study_goes_to_and_fro_between_loops_that_rest_and_loops_that_drift() -> None:
+    over = {
+        "air.pressure": {"from": "1.2 bar", "to": "2 bar", "steps": 3},
+        "fan.pressure_rise": {"from": "1 kPa", "to": "10 kPa", "steps": 3},
+    }
+    table = {"kind": "map", "over": over, "outputs": ["lowered.pressure"]}
+    cases = Study.of("rises", table, LineSubject.of(line(first="fan")), {}).run().cases
+    assert cases.fine.all()
+    expected = [x[0] - (0.0 if x[1] < LOST else LOST) for x in cases.x]
+    assert cases.y[:, 0].tolist() == pytest.approx(expected, rel=1e-12)

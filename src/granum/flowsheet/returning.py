@@ -1,9 +1,9 @@
 """The pressure at which a torn stream comes round: found with the rest of its loop, unless the loop loses or
 gains some at every turn.
 
-A loop is first brought to rest with each torn stream at the pressure of its first guess. Where it comes back
-at another one, it is carried round as well. If what is missing then stays missing, as where nothing makes
-good for the loss of a filter, there is no such pressure: the guess is kept, and it is told.
+A loop is first brought near to rest with each torn stream at the pressure of the first feed. Where it comes
+back at another one, it is carried round as well. If what is missing then stays missing, as where nothing
+makes good for the loss of a filter, there is no such pressure: that of the feed is kept, and it is told.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from granum.core import flags
 from granum.numerics.fixed_points import largest
 from granum.numerics.settled import Turns
 
-GUESSED, CARRIED, DRIFTING = 0.0, 1.0, 2.0
+GIVEN, CARRIED = 0.0, 1.0
 SAME = 1e-9  # of the pressure: what a stream may miss of it
 SETTLED = 1e-4  # flows have, before anybody looks at pressures
 STAYS = 0.25  # of what was missing two rounds before: so much will not go away
@@ -43,7 +43,7 @@ class Loop(NamedTuple):
         return vector[: self.count * self.row].reshape(self.count, self.row)[:, -1]
 
     def modes(self, vector: Any) -> Any:
-        """``GUESSED``, ``CARRIED`` or ``DRIFTING``."""
+        """``GIVEN``, that of the first feed, or ``CARRIED``."""
         return vector[self.count * self.row :][: self.count]
 
     def changed(self, vector: Any, pressures: Any, modes: Any) -> Any:
@@ -54,30 +54,33 @@ class Loop(NamedTuple):
 
 
 class _Round(NamedTuple):
-    """How many rounds pressures have been carried, or a negative number; the state before, and what was
-    missing two rounds before it is looked at what comes of it.
+    """How many rounds pressures have been carried, or a negative number; the state before; what was missing
+    two rounds before it is looked at what comes of it; and which will not come to rest.
     """
 
     rounds: Any
     before: Any
     missing: Any
+    drifting: Any
 
 
 def turns(loop: Loop, returned: Callable[[Any], Any]) -> Turns:
     """For ``settle``: pressures that are missed are carried on, and given up again.
 
-    ``returned``: from what a pass made, the pressures at which torn streams come back, scaled.
+    ``returned``: which array of what a pass makes has the pressures at which torn streams come back, scaled.
     """
     carried_on = loop.count + 2  # rounds in which a change has passed every torn stream
 
     def begin(start: Any) -> _Round:
-        return _Round(jnp.full((), -1), start, jnp.zeros((loop.count,)))
+        # what an earlier case carried is carried on: toward a higher feed it rises as if it drifted
+        no = jnp.zeros((loop.count,), bool)
+        return _Round(jnp.full((), -1), start, jnp.zeros((loop.count,)), no)
 
-    def after(known: _Round, x: Any, r: Any, made: Any) -> tuple[_Round, Any, Any]:
-        back, here, modes = returned(made), loop.pressures(x), loop.modes(x)
+    def after(known: _Round, x: Any, r: Any, back: Any) -> tuple[_Round, Any, Any]:
+        here, modes = loop.pressures(x), loop.modes(x)
         missing = abs(back - here)
         missed = missing > SAME * here
-        free = (modes == GUESSED) & missed
+        free = (modes == GIVEN) & missed & ~known.drifting
         opens = (largest(r[: loop.count * loop.row]) <= SETTLED) & jnp.any(free)
         carried = loop.changed(x, jnp.where(free, back, here), jnp.where(free, CARRIED, modes))
 
@@ -85,15 +88,16 @@ def turns(loop: Loop, returned: Callable[[Any], Any]) -> Turns:
         looks = ~opens & (rounds == carried_on + 2)
         drifts = (modes == CARRIED) & missed & (missing > STAYS * known.missing)
         at = jnp.where(drifts, loop.pressures(known.before), here)
-        given_up = loop.changed(known.before, at, jnp.where(drifts, DRIFTING, modes))
+        given_up = loop.changed(known.before, at, jnp.where(drifts, GIVEN, modes))
         following = _Round(
             jnp.where(opens, 0, jnp.where(looks, -1, rounds)),
             jnp.where(opens, x, known.before),
             jnp.where(rounds == carried_on, missing, known.missing),
+            known.drifting | (looks & drifts),
         )
         return following, opens | (looks & jnp.any(drifts)), jnp.where(opens, carried, given_up)
 
-    return Turns(begin, after)
+    return Turns(begin, returned, after)
 
 
 def told(back: Any, pressure: Any, card: str) -> flags.Record:

@@ -125,8 +125,9 @@ def _run_loop(
         made = pass_through(changed, block, streams | fed | torn(vector), asked, nothing)
         come = {n: known_or(made.streams[n], nothing) for n in block.tears}
         modes = jnp.round(loop.modes(vector))  # slopes measured by a small change are those of a constant
+        given = next(iter(changed.feeds.values())).pressure
         taken = {
-            n: s.replace(pressure=jnp.where(modes[i] == returning.CARRIED, s.pressure, guess[n].pressure))
+            n: s.replace(pressure=jnp.where(modes[i] == returning.CARRIED, s.pressure, given))
             for i, (n, s) in enumerate(come.items())
         }
         rows = [pack(s, scale) for s in taken.values()]

@@ -36,13 +36,15 @@ class Settled(NamedTuple):
 class Turns(NamedTuple):
     """What may change the state between two passes of an iteration, as when a switch in it is thrown.
 
-    begin: what is remembered of a start, a tree of arrays. after: from what is remembered, and the state of
-    the last pass with its residual and what it made: what is remembered from now on, whether to turn, and the
-    state from which the iteration then begins anew. Passes that only measure slopes are not told.
+    begin: what is remembered of a start, a tree of arrays. watched: which array of what a pass makes is
+    looked at. after: from what is remembered, and the state of the last pass with its residual and that
+    array: what is remembered from now on, whether to turn, and the state from which the iteration then begins
+    anew. Passes that only measure slopes are not told.
     """
 
     begin: Callable[[jax.Array], Any]
-    after: Callable[[Any, jax.Array, jax.Array, Any], tuple[Any, jax.Array, jax.Array]]
+    watched: Callable[[Any], Any]
+    after: Callable[[Any, jax.Array, jax.Array, jax.Array], tuple[Any, jax.Array, jax.Array]]
 
 
 def settle(
@@ -87,10 +89,9 @@ def settle(
     traced, given, _image = converted(flat, start)
     tree, kinds = shape
 
-    def opened(packed: jax.Array) -> Any:
-        parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
-        leaves = [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)]
-        return jax.tree.unflatten(tree, leaves)
+    ends = list(accumulate(math.prod(size) for size, _ in kinds))
+    # of all that is made one array: each that is opened costs an operation in every pass
+    seen = None if turns is None else turns.watched(jax.tree.unflatten(tree, range(len(kinds))))
 
     def searched(given: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
@@ -108,7 +109,8 @@ def settle(
                 return following, turning, kept
             memory, before = turning
             plain = method.moves(iteration)
-            onward = turns.after(memory, x, image - x, opened(made))
+            watched = made[ends[seen] - math.prod(kinds[seen][0]) : ends[seen]].reshape(kinds[seen][0])
+            onward = turns.after(memory, x, image - x, watched)
             memory, turned, onward = chosen(plain, onward[0], memory), plain & onward[1], onward[2]
             before = before + jnp.where(turned, following[-1], 0)
             return chosen(turned, method.begin(onward), following), (memory, before), kept
@@ -143,9 +145,14 @@ def settle(
         return (x, made, *numbers), (change, along, *map(jnp.zeros_like, numbers))
 
     x, packed, size, number, left = search(given, limits, start)
+    leaves = [
+        part.reshape(size).astype(kind)
+        for part, (size, kind) in zip(jnp.split(packed, ends[:-1]), kinds, strict=False)
+    ]
+    made = jax.tree.unflatten(tree, leaves)
     size = lax.stop_gradient(size)
     converged = size <= within_rounding(x, tolerance)
-    return Settled(x, opened(packed), converged, number.astype(int), size, lax.stop_gradient(left))
+    return Settled(x, made, converged, number.astype(int), size, lax.stop_gradient(left))
 
 
 def knowledge(method: Method, size: int, turns: Turns | None = None) -> int:
