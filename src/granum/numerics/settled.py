@@ -91,7 +91,7 @@ def settle(
 
     ends = list(accumulate(math.prod(size) for size, _ in kinds))
     # of all that is made one array: each that is opened costs an operation in every pass
-    seen = None if turns is None else turns.watched(jax.tree.unflatten(tree, range(len(kinds))))
+    seen: int = 0 if turns is None else turns.watched(jax.tree.unflatten(tree, range(len(kinds))))
 
     def searched(given: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
