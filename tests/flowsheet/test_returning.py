@@ -16,7 +16,7 @@ from granum.flowsheet import Flowsheet, line_closure, solve, solve_compiled
 from granum.flowsheet.ladder import at_rung, beginning
 from granum.flowsheet.passing import told
 from granum.flowsheet.specifications import Target, design
-from granum.streams.equipment.basics import Mixer, Splitter
+from granum.streams.equipment.basics import Mixer, Splitter, TwoWays
 from granum.streams.equipment.movers import Fan
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
@@ -45,6 +45,19 @@ class Throttle(Unit):
         return Passed(feed.replace(pressure=feed.pressure - self.loss))
 
     def figures(self, inside: None, outlets: Passed, feed: Stream) -> Lowered:
+        return Lowered(outlets.product.pressure)
+
+
+class Uneven(Unit):
+    """Sends more to its side the more comes."""
+
+    most: Any
+
+    def outlets(self, inside: None, feed: Stream) -> TwoWays:
+        side = self.most * feed.mass_flow / (1.0 + feed.mass_flow)
+        return TwoWays(feed.replace(gas=(1.0 - side) * feed.gas), feed.replace(gas=side * feed.gas))
+
+    def figures(self, inside: None, outlets: TwoWays, feed: Stream) -> Lowered:
         return Lowered(outlets.product.pressure)
 
 
@@ -177,3 +190,74 @@ def test_a_study_goes_to_and_fro_between_loops_that_rest_and_loops_that_drift() 
     assert cases.fine.all()
     expected = [x[0] - (0.0 if x[1] < LOST else LOST) for x in cases.x]
     assert cases.y[:, 0].tolist() == pytest.approx(expected, rel=1e-12)
+
+
+def chain(goes: tuple[int, ...], fed: Any, sides: Any, rises: Any, losses: Any, first: int) -> Flowsheet:
+    """Mixer, throttle, blower and splitter again and again; the side of each goes to the mixer named. The
+    first feed has another pressure than that of the chain.
+    """
+    steps = range(len(goes))
+    units: dict[str, Unit] = {"aside": Throttle(0.0)}
+    links = {"low": ("", "aside.feed"), "air": ("", "mix0.fresh")}
+    for i in steps:
+        units |= {
+            f"mix{i}": Mixer(),
+            f"throttle{i}": Throttle(losses[i]),
+            f"fan{i}": Throttle(-rises[i]),
+            f"split{i}": Uneven(sides[i]),
+        }
+        links |= {
+            f"mixed{i}": (f"mix{i}", f"throttle{i}.feed"),
+            f"lowered{i}": (f"throttle{i}", f"fan{i}.feed"),
+            f"raised{i}": (f"fan{i}", f"split{i}.feed"),
+            f"back{i}": (f"split{i}.side", f"mix{goes[i]}.back{i}"),
+        }
+        if i:
+            links[f"on{i}"] = (f"split{i - 1}.product", f"mix{i}.fresh")
+    names = list(units)
+    feed = empty(AIR, 300.0, FED).replace(gas=jnp.array([1.0]))
+    feeds = {"low": feed, "air": feed.replace(pressure=fed)}
+    return Flowsheet({n: units[n] for n in (*names[first:], *names[:first])}, feeds, links)
+
+
+@pytest.mark.parametrize(
+    ("goes", "first"), [((0, 0, 0), 0), ((1, 0, 1), 2), ((2, 0, 2), 5), ((1, 2, 0), 7), ((2, 2, 1), 9)]
+)
+def test_a_hundred_lines_find_each_pressure_or_tell_that_there_is_none(
+    goes: tuple[int, ...], first: int
+) -> None:
+    dice = np.random.default_rng(first)
+    fed = dice.uniform(1e5, 4e5, 100)
+    sides = dice.uniform(0.05, 0.95, (100, 3))
+    rises = dice.choice([0.0, 1e3, 4e3, 8e3, 30e3], (100, 3))
+    losses = dice.uniform(500.0, 6e3, (100, 3))
+
+    def one(fed: Any, sides: Any, rises: Any, losses: Any) -> Any:
+        made = chain(goes, fed, sides, rises, losses, first)
+        found = solve(made)
+        told = {
+            f"{unit} {i}": record.mask
+            for unit, records in found.records.items()
+            for i, record in enumerate(records)
+            if record.name == "pressure"
+        }
+        closure = line_closure(made, found)
+        mixed = jnp.stack([found.streams[f"mixed{i}"].pressure for i in range(3)])
+        return found.converged, mixed, told, closure.mass, closure.energy
+
+    converged, mixed, told, mass, energy = jax.jit(jax.vmap(one))(fed, sides, rises, losses)
+    assert converged.all()
+    assert max(abs(mass).max(), abs(energy).max()) < 1e-9
+
+    def passed(mixed: Any) -> Any:
+        raised = mixed - losses + rises
+        come = [[fed if i == 0 else raised[:, i - 1], *raised.T[np.array(goes) == i]] for i in range(3)]
+        return np.stack([np.min(c, axis=0) for c in come], axis=1)
+
+    right = np.full((100, 3), np.inf)
+    for _round in range(4):
+        right = passed(right)
+    rests = (passed(right) == right).all(axis=1)
+    assert 10 < rests.sum() < 90
+    assert (~np.any([*told.values()], axis=0)).tolist() == rests.tolist()
+    assert mixed[rests] == pytest.approx(right[rests], rel=1e-9)
