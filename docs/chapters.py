@@ -17,6 +17,7 @@ from typing import Any
 
 from granum.app.chapters import calculated, chapter_figure
 from granum.app.shipped import chapter_calculations
+from granum.core.files import write_atomic
 from granum.core.i18n import language
 from granum.core.unit_names import parse_unit, registry
 from granum.reports.moving_figures import moving_figure
@@ -26,6 +27,7 @@ DOCS = Path(__file__).parent
 ROOT = DOCS.parent
 KEPT = ROOT / ".cache" / "handbook"
 PLACES = {"en": "handbook/{}.md", "fr": "fr/manuel/{}.md"}
+MOVING = re.compile(r"^\[\[moving (\w+)\]\]$", re.MULTILINE)
 FIGURE = re.compile(r"^\[\[figure (\w+)\]\]\n\n\*(.+)\*$", re.MULTILINE)
 LOOKED_AT = ("src/granum/**/*.py", "src/granum/**/*.toml", "src/granum/**/*.csv", "src/granum/**/*.po")
 
@@ -64,13 +66,13 @@ def _kept(domain: str, what: str, make: Any) -> Any:
         return json.loads(place.read_text(encoding="utf-8"))
     made = make()
     KEPT.mkdir(parents=True, exist_ok=True)
-    place.write_text(json.dumps(made), encoding="utf-8")
+    write_atomic(place, json.dumps(made))
     return made
 
 
 def prepare() -> None:
-    """Make what chapters need on every core, each chapter in a process of its own that gives its memory back.
-    What is kept already is not made again.
+    """Make what chapters need on every core, each chapter in a process of its own that gives its memory back,
+    and the figures that move. What is kept already is not made again.
     """
     left = [domain for domain in domains() if not _place(domain, _stated(domain)).is_file()]
     left.sort(key=lambda domain: -len(chapter_text(domain, "en")))  # the longest first
@@ -78,8 +80,18 @@ def prepare() -> None:
         sys.path.append(str(DOCS))  # where the other processes find this module
     fresh = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(mp_context=fresh, max_tasks_per_child=1) as pool:
-        for _made in pool.map(make, left):
-            pass
+        for one in [
+            *(pool.submit(make, domain) for domain in left),
+            *(pool.submit(move, code) for code in PLACES),
+        ]:
+            one.result()
+
+
+def move(code: str) -> None:
+    """The figures that move, in a language."""
+    pages = "\n".join(page.read_text(encoding="utf-8") for page in sorted(DOCS.rglob("*.md")))
+    for name in sorted(set(MOVING.findall(pages))):
+        frames(name, code)
 
 
 def make(domain: str) -> None:
