@@ -109,10 +109,15 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
                 allowed=list(kind.units),
             ) from None
         given = "1" if unit.strip() in ("", "dimensionless") else unit.strip()
+        units = ", ".join(kind.units)
+        if set(kind.units) == {"dimensionless"}:
+            message = _("'{name}': unit '{unit}' does not fit. Give a number without a unit.")
+        elif {"dimensionless", "percent"}.issuperset(kind.units):
+            message = _("'{name}': unit '{unit}' does not fit. Give a number without a unit, or in %.")
+        else:
+            message = _("'{name}': unit '{unit}' does not fit. Use one of {units}.")
         raise UnitError(
-            _("'{name}' is a {kind}: unit '{unit}' does not fit. Use one of {units}.").format(
-                name=label, kind=_(kind.name), unit=given, units=", ".join(kind.units)
-            ),
+            message.format(name=label, unit=given, units=units),
             name=label,
             unit=given,
             allowed=list(kind.units),

@@ -38,6 +38,7 @@ export const french = {
   'Laws': 'Lois',
   'Lab tests': 'Essais de laboratoire',
   'Search everything': 'Tout chercher',
+  'Right within {share}.': 'Juste à {share} près.',
   'Close': 'Fermer',
   'Found': 'Trouvé',
   '{count} found': '{count} trouvés',
