@@ -26,7 +26,11 @@ FEED = empty(ACID, 298.15).replace(liquid=jnp.array([0.97, 0.03]))
 
 
 def column(**changes: Any) -> SuspensionMeltCrystallizer:
-    fields: dict[str, Any] = {"melting_temperature": 289.75, "temperature_crystallizer": 277.15, "heat_of_fusion": 195e3}
+    fields: dict[str, Any] = {
+        "melting_temperature": 289.75,
+        "temperature_crystallizer": 277.15,
+        "heat_of_fusion": 195e3,
+    }
     fields |= {"frozen_fraction": 0.5, "dynamic_viscosity": 1.2e-3, "crystal_density": 1266.0}
     return SuspensionMeltCrystallizer(**(fields | changes))
 
