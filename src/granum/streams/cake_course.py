@@ -64,7 +64,7 @@ def drawn_course(stages: Iterable[Stage]) -> Any:
         pairwise(clock), taken, (SOLID, LIQUID, ACCENT, INK, SOLID), strict=False
     ):
         drawing.add_vrect(x0=start, x1=stop, fillcolor=shade, opacity=0.06, line_width=0)
-        late = start > 0.6 * clock[-1]
+        late = start > 0.4 * clock[-1]
         drawing.add_annotation(
             x=stop if late else start,
             y=0.99 - LINE * row,
