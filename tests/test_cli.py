@@ -82,7 +82,7 @@ def test_terminal_velocity_with_source() -> None:
     ("words", "wanted"),
     [
         (["particle_diametre=85um", *GOOD[1:]], "Did you mean 'particle_diameter'?"),
-        (["particle_diameter=85s", *GOOD[1:]], "is a length: unit 's' does not fit"),
+        (["particle_diameter=85s", *GOOD[1:]], "unit 's' does not fit"),
         (["particle_diameter=-85um", *GOOD[1:]], "must be greater than 0"),
         (["particle_diameter=abc", *GOOD[1:]], "is not a number with a unit"),
         (["particle_diameter", *GOOD[1:]], "is not of the form name=value"),

@@ -173,7 +173,20 @@ def test_units_are_renamed_bypassed_and_deleted_from_their_panel_and_specified(p
     page.button("Delete").click()
     page.until(lambda: "purge" not in case_of(page)["units"])
     assert "specifications" not in case_of(page)
+    page.says("[data-removed]", "purge")
+    page.browser.refresh()  # what was deleted comes back even then
+    page.settle()
+    page.until(lambda: page.button("Undo").is_enabled())
+    field = page.type("#seek", "salt")
+    field.send_keys(Keys.CONTROL, "z")  # the undo of the text itself
+    assert "purge" not in case_of(page)["units"]
+    page.browser.execute_script("document.activeElement.blur()")
     page.browser.find_element("css selector", "body").send_keys(Keys.CONTROL, "z")
+    page.until(lambda: "purge" in case_of(page)["units"])
+    assert case_of(page)["specifications"]
+    page.browser.find_element("css selector", "body").send_keys(Keys.CONTROL, "y")
+    page.until(lambda: "purge" not in case_of(page)["units"])
+    page.button("Undo").click()
     page.until(lambda: "purge" in case_of(page)["units"])
 
 

@@ -73,9 +73,15 @@ def test_units_and_signs_are_told() -> None:
     # Stokes by hand: 9.80665 · (2630 - 1020) · (85e-6)² / (18 · 1.2e-3) = 5.281 mm/s
     assert marked("falling-crystal", 0, None, "5.28 mm/s")["verdict"] == "right"
     assert marked("falling-crystal", 0, None, "0.00528 m/s")["verdict"] == "right"
-    assert "1000 times too large" in marked("falling-crystal", 0, None, "5.28 m/s")["text"]
+    assert "5280 mm/s is 1000 times too large" in marked("falling-crystal", 0, None, "5.28 m/s")["text"]
     assert "sign" in marked("air-at-zero", 1, None, "2.68 degC")["text"]
     assert marked("falling-crystal", 0, None, "5.28 kg")["verdict"] == "unclear"
+    for number in ("5 kg", "5 m"):  # of a number without a unit: neither "use one of 1" nor nothing
+        refused = marked("falling-crystal", 1, None, number)
+        assert refused["verdict"] == "unclear"
+        assert refused["text"].endswith("does not fit. Give a number without a unit, or in %.")
+    assert marked("counted-powder", 2, None, "-30 mm")["text"].endswith("greater than 0 mm.")
+    assert marked("falling-crystal", 0, None, "5.5 mm/s")["text"].startswith("Close, but 4.1 % too large")
     assert marked("falling-crystal", 0, None, "7 mm/s")["text"] == "Not this: too large."
     with language("fr"):
         assert marked("falling-crystal", 0, None, "7 mm/s")["text"] == "Pas cela : trop grand."
@@ -101,6 +107,7 @@ def test_a_student_answers(
 ) -> None:
     page.open("exercises/falling-crystal", language_code)
     field = "[data-step='0'] .quantity input"
+    assert "2 %" in page.text("[data-step='0'] [data-within]")
     page.type(field, radius)
     page.one("[data-step='0'] button.main").click()
     page.one("[data-step='0'] [data-verdict=wrong]")
@@ -118,6 +125,13 @@ def test_a_student_answers(
     page.settle()
     assert page.one("[data-step='0'] [data-verdict=right]"), "what was answered is kept"
     assert page.one(field).get_attribute("value") == right
+    other = {"en": "fr", "fr": "en"}[language_code]
+    page.browser.get(page.browser.current_url.replace(f"lang={language_code}", f"lang={other}"))
+    page.settle()
+    said = {"en": "Right: 5.281 mm/s when calculated.", "fr": "Juste : 5,281 mm/s par le calcul."}[other]
+    page.says("[data-step='0'] [data-verdict=right]", said)
+    assert page.one(field).get_attribute("value") == {"en": "5.28", "fr": "5,28"}[other]
+    page.says(".course a[aria-current]", "1/3")
 
 
 def test_fresh_numbers_and_the_answer_on_request(page: Page) -> None:

@@ -76,6 +76,12 @@ def test_the_page_draws_it_and_another_on_demand(page: Page) -> None:
 def test_what_is_inside_a_machine_is_drawn_and_its_sizes_are_called_after_its_ports(address: str) -> None:
     with httpx.Client(base_url=address, timeout=240, headers={"x-language": "fr"}) as client:
 
+        def values(found: object) -> np.ndarray:
+            """Numbers as Plotly sends them: packed, or as a list."""
+            if isinstance(found, dict):
+                return np.frombuffer(b64decode(found["bdata"]), dtype=found["dtype"])
+            return np.asarray(found, dtype=float)
+
         def charts(key: str) -> dict:
             case = client.post(f"/api/alone/{key}", json={}).json()["case"]
             found = client.post("/api/inside", json={"case": case, "place": ""}).json()["charts"]
@@ -84,12 +90,27 @@ def test_what_is_inside_a_machine_is_drawn_and_its_sizes_are_called_after_its_po
         screened = charts("comminution.screen")["Granulométrie"]
         assert [line["name"] for line in screened["data"]] == ["alimentation", "refus", "passant"]
         for line in screened["data"]:
-            share = np.frombuffer(b64decode(line["y"]["bdata"]), dtype=line["y"]["dtype"])
+            share = values(line["y"])
             assert np.all(np.diff(share) >= 0.0)
             assert share[0] < 0.1
             assert share[-1] > 99.9
         settled = charts("settling.secondary_settler")
         assert "Couches d’un décanteur secondaire" in settled
+        (thickened,) = charts("settling.thickener").values()
+        curve, most, load = ({k: values(line[k]) for k in "xy"} for line in thickened["data"][:3])
+        # Yoshioka: the line of the greatest load lies on or under the curve from the feed on, and touches it
+        fed = values(thickened["data"][4]["x"])[0]
+        beyond = (curve["x"] >= fed) & (curve["x"] < most["x"][1])
+        line = np.interp(curve["x"], most["x"], most["y"])
+        assert np.all((curve["y"] - line)[beyond] >= -1e-6 * line[0])
+        assert np.min((curve["y"] - line)[beyond]) < 0.01 * line[0]
+        assert 0.0 < load["y"][0] < most["y"][0]
+        assert [
+            line["name"] for line in charts("filtration.nutsche")["Un gâteau au fil de son cycle"]["data"]
+        ] == [
+            "épaisseur",
+            "saturation",
+        ]
         assert charts("streams.pump") == {}
 
 

@@ -234,7 +234,7 @@ def mixed(classes: int) -> dict[str, Case]:
                 334e3,
                 0.1 + 0.8 * u[3],
                 1.8e-3,
-                temperature=258.0 + 15.0 * u[0] - 20.0 * u[1],
+                temperature_crystallizer=258.0 + 15.0 * u[0] - 20.0 * u[1],
                 crystal_size=5e-5 + 1e-3 * u[2],
                 wash_ratio=1.5 * u[4],
                 wash_efficiency=0.8 + 0.2 * u[5],

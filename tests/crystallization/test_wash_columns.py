@@ -26,7 +26,11 @@ FEED = empty(ACID, 298.15).replace(liquid=jnp.array([0.97, 0.03]))
 
 
 def column(**changes: Any) -> SuspensionMeltCrystallizer:
-    fields: dict[str, Any] = {"melting_temperature": 289.75, "temperature": 277.15, "heat_of_fusion": 195e3}
+    fields: dict[str, Any] = {
+        "melting_temperature": 289.75,
+        "temperature_crystallizer": 277.15,
+        "heat_of_fusion": 195e3,
+    }
     fields |= {"frozen_fraction": 0.5, "dynamic_viscosity": 1.2e-3, "crystal_density": 1266.0}
     return SuspensionMeltCrystallizer(**(fields | changes))
 
@@ -143,13 +147,13 @@ def test_xylenes_freeze_together_where_a_maker_of_wash_columns_says():
 
 
 def test_the_crystallizer_is_at_the_freezing_point_of_what_it_leaves():
-    unit = column(temperature=None, wash_ratio=0.6)
+    unit = column(temperature_crystallizer=None, wash_ratio=0.6)
     made = unit.operate(feed=FEED)
     residue = made.outlets.residue
     moles = np.asarray(residue.liquid) / [s.molar_mass for s in ACID.liquids]
     T = freezing_temperature_ideal(moles[0] / moles.sum(), 289.75, 195e3, ACID.liquids[0].molar_mass)
     assert float(residue.temperature) == pytest.approx(float(T), abs=1e-6)
-    given = column(temperature=float(residue.temperature), wash_ratio=0.6).operate(feed=FEED)
+    given = column(temperature_crystallizer=float(residue.temperature), wash_ratio=0.6).operate(feed=FEED)
     assert float(given.figures.impurity_ratio_washed) == pytest.approx(
         float(made.figures.impurity_ratio_washed), rel=1e-6
     )
@@ -168,13 +172,13 @@ def test_the_line_makes_para_xylene_to_specification():
 def test_a_melt_of_unknown_molar_mass_asks_for_a_temperature():
     bare = replace(ACID, liquids=tuple(replace(s, molar_mass=float("nan")) for s in ACID.liquids))
     with pytest.raises(CaseError, match="molar mass of 'acetic acid', 'water'"):
-        column(temperature=None)(empty(bare, 298.15).replace(liquid=FEED.liquid))
+        column(temperature_crystallizer=None)(empty(bare, 298.15).replace(liquid=FEED.liquid))
 
 
 @pytest.mark.parametrize(
     ("changes", "word"),
     [
-        ({"temperature": 290.0}, "not colder"),
+        ({"temperature_crystallizer": 290.0}, "not colder"),
         ({"void_fraction": 0.05}, "shuts the bed"),
         ({"frozen_fraction": 0.98}, "purer feed"),
     ],

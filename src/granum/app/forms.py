@@ -145,13 +145,18 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
     return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
 
 
+LONG = 1e7  # from here on a number of few figures is written as a power of ten
+
+
 def typed(number: float, figures: int = 6) -> str:
     """A number as somebody would type it.
 
-    >>> typed(1.07e8), typed(85.0), typed(2e-12)
+    >>> typed(1.07e8, 12), typed(85.0), typed(2e-12)
     ('1.07e8', '85', '2e-12')
     """
-    digits, _e, power = f"{number:.{figures}g}".partition("e")
+    short = f"{number:.6g}"
+    written = short if abs(number) >= LONG and float(short) == number else f"{number:.{figures}g}"
+    digits, _e, power = written.partition("e")
     return f"{digits}e{int(power)}" if power else digits
 
 

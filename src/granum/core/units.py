@@ -109,10 +109,15 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
                 allowed=list(kind.units),
             ) from None
         given = "1" if unit.strip() in ("", "dimensionless") else unit.strip()
+        units = ", ".join(kind.units)
+        if set(kind.units) == {"dimensionless"}:
+            message = _("'{name}': unit '{unit}' does not fit. Give a number without a unit.")
+        elif {"dimensionless", "percent"}.issuperset(kind.units):
+            message = _("'{name}': unit '{unit}' does not fit. Give a number without a unit, or in %.")
+        else:
+            message = _("'{name}': unit '{unit}' does not fit. Use one of {units}.")
         raise UnitError(
-            _("'{name}' is a {kind}: unit '{unit}' does not fit. Use one of {units}.").format(
-                name=label, kind=_(kind.name), unit=given, units=", ".join(kind.units)
-            ),
+            message.format(name=label, unit=given, units=units),
             name=label,
             unit=given,
             allowed=list(kind.units),
@@ -349,8 +354,8 @@ def field_units(kind: Kind) -> tuple[str, ...]:
 
 
 def best_unit(value: float, kind: Kind) -> str:
-    """The display unit in which a value lies between 0.1 and 9999, the usual unit being preferred, then one
-    below 1000.
+    """The display unit in which a value lies between 0.1 (of a time 1) and 9999, the usual unit being
+    preferred, then one below 1000.
 
     Customary units are offered for typing, and chosen for printing only when they are wanted
     (``set_unit_system``).
@@ -359,7 +364,9 @@ def best_unit(value: float, kind: Kind) -> str:
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
-    if 0.1 <= sizes[units[0]] < most_of(units[0], units):
+    # parts of a minute are seconds, parts of a millimeter need not be micrometers
+    least = 1.0 if kind.unit == "s" else 0.1
+    if least <= sizes[units[0]] < most_of(units[0], units):
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:

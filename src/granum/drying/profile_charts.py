@@ -19,6 +19,7 @@ from granum.streams.stream import Stream
 ZERO = 273.15
 HUMIDITIES = (1.0, 0.5, 0.2, 0.1, 0.05)
 ROOM = 1.15  # over the moistest state
+EARLY = 0.2  # share of the way, within which a profile that changes no more is drawn alone
 
 
 def _drawn(x: Any, title: str, x_label: str) -> Any:
@@ -81,6 +82,12 @@ def profile_chart(dryer: Any, feed: Stream, gas: Stream, time: Any = None) -> An
     return drawn_profile(dryer.profile(feed, gas), time)
 
 
+def _settled(x: np.ndarray, *lines: np.ndarray) -> float:
+    """Where the last of some lines has come within a hundredth of its way to its end."""
+    moving = [np.flatnonzero(np.abs(y - y[-1]) > 0.01 * np.ptp(y)) for y in lines if np.ptp(y) > 0.0]
+    return float(x[min(max((int(at[-1]) for at in moving if at.size), default=x.size - 2) + 1, x.size - 1)])
+
+
 def drawn_profile(found: Profile, time: Any = None) -> Any:
     """A profile as a chart."""
     from granum.core.charts import GAS, LIQUID, SOLID, add_line, axis_title
@@ -93,6 +100,9 @@ def drawn_profile(found: Profile, time: Any = None) -> Any:
     add_line(drawing, x, np.asarray(found.gas_temperature) - ZERO, _("gas temperature"), color=GAS)
     add_line(drawing, x, T @ shares - ZERO, _("solid temperature"), color=SOLID)
     add_line(drawing, x, X @ shares, _("moisture"), color=LIQUID, dash="dash", yaxis="y2")
+    last_change = _settled(x, np.asarray(found.gas_temperature), T @ shares, X @ shares)
+    if last_change < EARLY * x[-1]:  # all that happens would be one upright line at the edge
+        drawing.update_xaxes(range=[float(x[0]), 1.5 * last_change])
     some = np.flatnonzero(shares > 1e-6)
     last = X[:, some]
     if np.ptp(last, axis=1).max() > 1e-3 * last.max():
@@ -109,7 +119,7 @@ def drawn_air(found: Profile, feed: Stream, gas: Stream, exhaust: Stream, agains
     """The gas of a dryer among lines of relative humidity from where it enters to where it leaves; None for
     steam, which has no dry gas to count by.
     """
-    from granum.core.charts import GAS, INK, add_line, axis_title, faded, figure
+    from granum.core.charts import GAS, INK, add_label, add_line, axis_title, faded, figure
     from granum.core.units import format_number
 
     matter, humid = Matter.of(feed, gas), HumidMixture(gas.mixture)
@@ -130,9 +140,14 @@ def drawn_air(found: Profile, feed: Stream, gas: Stream, exhaust: Stream, agains
     for phi in HUMIDITIES:
         y = np.minimum(phi * share, 0.99)
         w = float(matter.molar_mass_ratio) * y / (1.0 - y)
-        name = f"{axis_title('relative_humidity')} {format_number(100.0 * phi, 2)} %"
-        add_line(drawing, grid[w <= top] - ZERO, w[w <= top], name, color=faded(INK), width=1)
+        percent = f"{format_number(100.0 * phi, 2)} %"
+        name = f"{axis_title('relative_humidity')} {percent}"
+        x, y = grid[w <= top] - ZERO, w[w <= top]
+        add_line(drawing, x, y, name, color=faded(INK), width=2 if phi == 1.0 else 1)
+        if x.size:
+            add_label(drawing, float(x[-1]), float(y[-1]), percent, xanchor="right", yanchor="top", xshift=-2)
     add_line(drawing, T - ZERO, Y, _("gas"), color=GAS)
+    drawing.update_layout(showlegend=False)  # the lines say themselves what they are
     drawing.update_xaxes(range=[low - ZERO, high - ZERO])
     drawing.update_yaxes(range=[0.0, top])
     return drawing

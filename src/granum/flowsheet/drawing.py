@@ -18,9 +18,8 @@ from granum.flowsheet.symbols import symbol_of
 from granum.streams.names import port_label, pretty
 from granum.streams.stream import main_phase
 
-ROW, BOX, LANE, MARGIN, LETTER, TRACK, PITCH = 124, 60, 22, 16, 6.6, 9, 20
+ROW, BOX, LANE, MARGIN, LETTER, BOLD, TRACK, PITCH = 124, 60, 22, 16, 6.6, 7.6, 9, 20
 ACROSS = 5  # columns side by side
-LONGEST = 18  # letters of a name
 PHASE_COLORS = {"solid": "#b7791f", "liquid": "#2b6cb0", "gas": "#6b7f99", "": "#1c2430"}
 
 
@@ -70,13 +69,18 @@ def _columns(line: Drawable) -> dict[str, int]:
 
 
 def _label(k: Link) -> str:
-    """The name of a stream as the diagram prints it."""
+    """The name of a stream as the diagram prints it; an open end, being beside its unit, has its port."""
     _unit, _dot, port = k.name.partition(".")
-    return port_label(port) if port and len(k.name) > LONGEST else pretty(k.name)
+    return port_label(port) if port and not k.target else pretty(k.name)
 
 
 def _wide(text: str) -> float:
     return LETTER * len(text)
+
+
+def _hanging(unit: str) -> float:
+    """How far the name under a unit stands out on either side of it."""
+    return max(0.0, (BOLD * len(pretty(unit)) - BOX) / 2)
 
 
 def _port(i: int, count: int) -> float:
@@ -112,6 +116,7 @@ class _Sheet:
         self.below = [k.name for k in self.inner if not self._same_band(k) or self._span(k) <= 0]
         self._vertical(bands, used)
         self._horizontal()
+        self._lane_names()
 
     def _same_band(self, k: Link) -> bool:
         return self.band[k.source_unit] == self.band[k.target_unit]
@@ -139,8 +144,12 @@ class _Sheet:
         feeds, verticals of what enters.
         """
         n = self.across
+        self.hanging = [
+            max((_hanging(u) for u in self.column if self.column[u] == c), default=0.0) for c in range(n)
+        ]
         out, names, middle, feeding, into = ([0.0] * (n + 1) for _i in range(5))
         self.track: dict[tuple[str, str], float] = {}
+        self.named: dict[str, float] = {}  # width of the longest name beside what leaves a unit
         self.taken: dict[tuple[str, int, int], list[str]] = {}
         for unit in self.line.order:
             c = self.column[unit]
@@ -150,15 +159,16 @@ class _Sheet:
             for k in self.inlets[unit]:
                 if k.name in (*self.above, *self.below):
                     into[c] = max(into[c], self._take(k.name, "in", (0, c)))
-            for k in self.outlets[unit]:
-                if k not in detours:
-                    plus = 26.0 if self.growing and not k.target else 0.0
-                    names[c + 1] = max(names[c + 1], 22.0 + _wide(_label(k)) + plus)
+            named = [k for k in self.outlets[unit] if k not in detours]
+            if named:
+                plus = 26.0 if self.growing and any(not k.target for k in named) else 0.0
+                self.named[unit] = max(_wide(_label(k)) for k in named)
+                names[c + 1] = max(names[c + 1], 22.0 + self.named[unit] + plus)
             for k in self.inlets[unit]:
                 if not k.origin:
                     feeding[c] = max(feeding[c], 14.0 + _wide(_label(k)))
             for one in self.loose[unit]:
-                feeding[c] = max(feeding[c], 26.0 + _wide(one.port))
+                feeding[c] = max(feeding[c], 26.0 + _wide(port_label(one.port)))
         between: dict[tuple[int, int], list[Link]] = {}
         for k in self.inner:
             if k.name not in self.above and k.name not in self.below:
@@ -174,16 +184,21 @@ class _Sheet:
             x += out[c] + names[c]
             if c:
                 self.middle.append(x + 4.0)
-            x += middle[c] + max(feeding[c], 12.0 if not c else 30.0) + into[c]
+            x += (
+                middle[c]
+                + max(feeding[c], 12.0 if not c else 30.0, self.hanging[c] - into[c] + 6.0)
+                + into[c]
+            )
             self.x.append(x)
             x += BOX
-        self.width = x + max(out[n] + names[n], 14.0) + 10.0
+        self.width = x + max(out[n] + names[n], 14.0, self.hanging[n - 1]) + 10.0
 
     def _take(self, name: str, side: str, beside: tuple[int, int]) -> float:
         """The next free vertical beside a column of units; gives the room that they then need."""
         taken = self.taken.setdefault((side, *beside), [])
         taken.append(name)
-        self.track[name, side] = (20.0 if side == "in" else 14.0) + TRACK * (len(taken) - 1)
+        clear = max(20.0 if side == "in" else 14.0, self.hanging[beside[1]] + 5.0)
+        self.track[name, side] = clear + TRACK * (len(taken) - 1)
         return self.track[name, side] + TRACK
 
     def corner(self, unit: str) -> tuple[float, float]:
@@ -202,6 +217,48 @@ class _Sheet:
         x, y = self.corner(k.source_unit)
         return x + BOX, y + _port(mates.index(k), len(mates))
 
+    def _lane(self, k: Link) -> list[tuple[float, float]]:
+        """Corners of a stream that runs in a lane."""
+        (x1, y1), (x2, y2) = self.outlet(k), self.inlet(k.target_unit, k)
+        band = self.band[k.source_unit]
+        upward = k.name in self.above
+        mates = self.lanes(self.above if upward else self.below, band)
+        edge = self.top[band] - LANE * len(mates) - 2 if upward else self.bottom[band]
+        lane = edge + LANE * (mates.index(k.name) + (0.6 if upward else 0.8))
+        left, right = x1 + self.track[k.name, "out"], x2 - self.track[k.name, "in"]
+        return [(x1, y1), (left, y1), (left, lane), (right, lane), (right, y2), (x2 - 3.0, y2)]
+
+    def _lane_names(self) -> None:
+        """Where the name of a stream stands on its lane: in the middle, unless a vertical runs through it
+        there; beside the lane where this is shorter than its name.
+        """
+        lanes = {k.name: self._lane(k) for k in self.inner if k.name in (*self.above, *self.below)}
+        verticals = [
+            (x, min(y, to), max(y, to))
+            for corners in lanes.values()
+            for (x, y), (_x, to) in ((corners[1], corners[2]), (corners[3], corners[4]))
+        ]
+        self.name_at: dict[str, float] = {}
+        for k in self.inner:
+            if k.name not in lanes:
+                continue
+            (start, lane), (end, _lane) = lanes[k.name][2:4]
+            half, middle = _wide(_label(k)) / 2 + 3.0, (start + end) / 2
+
+            def crossed(at: float, half: float = half, lane: float = lane) -> int:
+                return sum(
+                    abs(x - at) < half and low < lane - 3.0 and high > lane - 13.0
+                    for x, low, high in verticals
+                )
+
+            room = abs(end - start) / 2 - half
+            steps = [step * sign for step in range(0, max(int(room), 0), 6) for sign in (1, -1)]
+            beside = [max(start, end) - middle + half, min(start, end) - middle - half]
+            inside = [
+                at for at in (middle + step for step in (*steps, *beside)) if half < at < self.width - half
+            ]
+            self.name_at[k.name] = min(inside or [middle], key=crossed)
+
     def course(self, k: Link) -> tuple[str, tuple[float, float, str], tuple[float, float]]:
         """Path of a stream, place of its name, and where it ends."""
         if not k.origin:
@@ -214,7 +271,8 @@ class _Sheet:
         c = self.column[k.source_unit]
         clear = self.out[c + 1]
         if not k.target:
-            end = x1 + clear + 20.0 + _wide(_label(k))
+            # what stands at open ends is in one line, beyond every name beside it
+            end = x1 + clear + 20.0 + self.named[k.source_unit]
             return f"M{x1:g} {y1:g} H{end:g}", (x1 + clear + 6, y1 - 5, "start"), (end, y1)
         x2, y2 = self.inlet(k.target_unit, k)
         if (k.name, "middle") in self.track:
@@ -224,15 +282,10 @@ class _Sheet:
                 (x1 + clear + 6, y1 - 5, "start"),
                 (x2, y2),
             )
-        band = self.band[k.source_unit]
-        upward = k.name in self.above
-        mates = self.lanes(self.above if upward else self.below, band)
-        edge = self.top[band] - LANE * len(mates) - 2 if upward else self.bottom[band]
-        lane = edge + LANE * (mates.index(k.name) + (0.6 if upward else 0.8))
-        left, right = x1 + self.track[k.name, "out"], x2 - self.track[k.name, "in"]
+        _start, (left, _y1), (_left, lane), (right, _lane), _inlet, _end = self._lane(k)
         return (
             f"M{x1:g} {y1:g} H{left:g} V{lane:g} H{right:g} V{y2:g} H{x2 - 3:g}",
-            ((left + right) / 2, lane - 4, "middle"),
+            (self.name_at[k.name], lane - 4, "middle"),
             (x2, y2),
         )
 
@@ -322,7 +375,7 @@ def _unit(sheet: _Sheet, unit: str) -> str:
 
 def _open_inlet(sheet: _Sheet, one: Loose) -> str:
     x, y = sheet.inlet(one.unit, one)
-    start = x - 16.0
+    start = x - sheet.into[sheet.column[one.unit]] - 16.0
     port = port_label(one.port)
     told = _("open inlet '{port}' of {unit}").format(port=port, unit=pretty(one.unit))
     return (

@@ -193,6 +193,8 @@ def flux_diagram(
         f"{verdict} ({format_number(float(state.loading_ratio), 2)})",
         xanchor="left",
         yanchor="bottom",
+        yshift=6,
+        bgcolor="rgba(255,255,255,0.8)",
     )
     drawing.update_yaxes(range=[0.0, 1.15 * HOUR * max(f.max(), state.applied_flux)])
     return drawing
@@ -333,20 +335,50 @@ def settler_layers_chart(
         nonsettleable_share=nonsettleable_share,
         layers=layers,
     )
-    return layered(rest.layer_concentration, height)
+    return layered(rest.layer_concentration, height, _("Layers of a secondary settler"))
 
 
-def layered(concentration: Any, height: Any) -> go.Figure:
+def operating_line(
+    feed_concentration: float,
+    underflow_concentration: float,
+    applied_flux: float,
+    limiting_flux: float,
+    limiting_concentration: float,
+    settling: Any,
+) -> go.Figure:
+    """Settling flux over concentration, with the line from the load of a thickener to its underflow, and that
+    of the greatest load, which touches the curve (Yoshioka).
+    """
+
+    def settled(concentration: Any) -> np.ndarray:
+        return np.asarray(settling_flux(np.asarray(concentration, dtype=float), settling)) * HOUR
+
+    C = np.linspace(0.0, 1.1 * underflow_concentration, 300)
+    most, load, ends = HOUR * limiting_flux, HOUR * applied_flux, [0.0, underflow_concentration]
+    drawing = figure(axis_title("solids_concentration", "g/L"), axis_title("solids_flux", "kg/(m^2*hour)"))
+    add_line(drawing, C, settled(C), _("settling flux"))
+    add_line(drawing, ends, [most, 0.0], _("limiting flux"), color=CAUTION, dash="dash")
+    add_line(drawing, ends, [load, 0.0], _("load"), color=SOLID)
+    for at, color, name in (
+        (limiting_concentration, CAUTION, _("limiting layer")),
+        (feed_concentration, INK, _("feed")),
+    ):
+        add_points(drawing, [at], settled([at]), name, color=color)
+    drawing.update_yaxes(range=[0.0, 1.08 * max(float(settled(C).max()), most, load)])
+    return drawing
+
+
+def layered(concentration: Any, height: Any, title: str = "") -> go.Figure:
     """Even layers from the top, as steps over the height."""
     C = np.asarray(concentration, dtype=float)
     edges = float(height) * np.linspace(1.0, 0.0, C.size + 1)
     drawing = figure(
         axis_title("solids_concentration", "g/L"),
         axis_title("height", "m"),
-        title=_("Layers of a secondary settler"),
+        title=title,
     )
     drawn = np.maximum(C, 1e-6 * max(float(C.max()), 1e-9))  # an axis of powers of ten has no zero
     add_line(drawing, np.repeat(drawn, 2), np.repeat(edges, 2)[1:-1], _("concentration"), color=SOLID)
     drawing.update_traces(line={"simplify": False})
-    drawing.update_xaxes(type="log")
+    drawing.update_xaxes(type="log", exponentformat="power")
     return drawing

@@ -3,6 +3,9 @@
 from granum.streams.audit import (
     Closure as Closure,
 )
+from granum.streams.cake_course import (
+    Stage as Stage,
+)
 from granum.streams.cake_maker import (
     CakeMaker as CakeMaker,
 )

@@ -4,17 +4,21 @@ dissolution, what is left.
 
 from __future__ import annotations
 
+import abc
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from granum.core.i18n import _
 from granum.core.kinds import Diffusivity, Fraction, Law, Length, MediumResistance, SurfaceTension
 from granum.porous.displacement import practical_number, remaining_fraction
+from granum.streams.cake_course import Stage, drawn_course
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
 from granum.streams.dissolution import dissolved_share
 from granum.streams.stream import Stream
-from granum.streams.units import Unit
+from granum.streams.units import Operated, Unit
 
 
 class CakeMaker(Unit):
@@ -36,6 +40,16 @@ class CakeMaker(Unit):
     def diameter(self, feed: Stream) -> Any:
         """Surface–volume diameter of the solid in the cake, m."""
         return solid_diameter(feed, self.particle_diameter)
+
+    @abc.abstractmethod
+    def stages(self, inside: Any, feed: Stream, wash: Stream | None = None) -> list[Stage]:
+        """The life of one cake."""
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        if float(inlets["feed"].solid_flow) <= 0.0:
+            return {}
+        drawn = drawn_course(self.stages(made.inside, **inlets))
+        return {} if drawn is None else {_("A cake through its cycle"): drawn}
 
     def void_flow(self: Any, feed: Stream) -> Any:
         """Void volume of the cake formed per time, m³/s."""

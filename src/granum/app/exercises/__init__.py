@@ -11,7 +11,7 @@ from typing import Any
 
 import tomli
 
-from granum.app.exercises.numbers import Numbers, filled_text
+from granum.app.exercises.numbers import Numbers, filled_text, tolerance_text
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, current_language, typographic
@@ -163,6 +163,7 @@ def _asked(step: dict[str, Any], place: int, numbers: Numbers) -> dict[str, Any]
         "sort": card.sort,
         "title": card.title,
         "unit": asked["unit"],
+        "within": tolerance_text(step, place, numbers),
         "inputs": numbers.inputs(place),
         "output": asked["output"],
         "label": card.parameter(asked["output"]).label,

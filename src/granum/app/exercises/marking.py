@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from granum.app import exercises
-from granum.app.exercises.numbers import Numbers, filled_text
+from granum.app.exercises.numbers import Numbers, filled_text, tolerance_of
 from granum.app.wording import told
 from granum.core import registry
 from granum.core.conversion import convert
@@ -14,15 +14,8 @@ from granum.core.errors import GranumError
 from granum.core.i18n import _
 from granum.core.units import format_number, from_si, pretty_unit
 
-TOLERANCE = 0.02
 FACTORS = (60.0, 3600.0)
-
-
-def tolerance_of(step: dict[str, Any], right: float) -> float:
-    """How far an answer may lie from the calculated one, in the unit that is asked for: a share of it, and at
-    least what the course itself is off by reading or rounding.
-    """
-    return max(step.get("tolerance", TOLERANCE) * abs(right), step["expected"].get("within", 0.0))
+NEAR = 0.06  # share by which an answer may be off and still have gone the right way
 
 
 def marked(name: str, number: int, seed: int | None, answer: str) -> dict[str, Any]:
@@ -49,7 +42,7 @@ def marked(name: str, number: int, seed: int | None, answer: str) -> dict[str, A
     for slip, value in slips(numbers, number, right):
         if abs(given - value) <= 0.015 * abs(value):
             return {"verdict": "wrong", "text": exercises.in_language(slip["says"])}
-    return {"verdict": "wrong", "text": _told(given, right, tolerance_of(step, right))}
+    return {"verdict": "wrong", "text": _told(given, right, tolerance_of(step, right), asked["unit"])}
 
 
 def _chosen(step: dict[str, Any], numbers: Numbers, answer: str) -> dict[str, Any]:
@@ -75,18 +68,29 @@ def slips(numbers: Numbers, place: int, right: float) -> list[tuple[dict[str, An
     ]
 
 
-def _told(given: float, right: float, tolerance: float) -> str:
+def _told(given: float, right: float, tolerance: float, unit: str) -> str:
     """A sentence on a wrong answer that no declared slip explains."""
+    read = f"{format_number(given)} {pretty_unit(unit)}".strip()
     if right != 0.0 and given != 0.0:
         ratio = given / right
         share = max(tolerance / abs(right), 1e-3)
+        if abs(ratio - 1.0) <= NEAR:
+            close = _("Close, but {share} too large: a rounded step, or a value read a little off?")
+            small = _("Close, but {share} too small: a rounded step, or a value read a little off?")
+            return (close if ratio > 1.0 else small).format(
+                share=f"{format_number(100.0 * abs(ratio - 1.0), 2)} %"
+            )
         if ratio < 0.0 and abs(ratio + 1.0) <= share:
             return _("The size is right, the sign is not.")
         power = round(math.log10(abs(ratio)))
         factors = [10.0 ** abs(power), *FACTORS]
         for factor in factors:
             if factor > 1.0 and abs(ratio / factor - 1.0) <= share:
-                return _("{factor} times too large: look at the units.").format(factor=format_number(factor))
+                return _("{read} is {factor} times too large: look at the units.").format(
+                    read=read, factor=format_number(factor)
+                )
             if factor > 1.0 and abs(ratio * factor - 1.0) <= share:
-                return _("{factor} times too small: look at the units.").format(factor=format_number(factor))
+                return _("{read} is {factor} times too small: look at the units.").format(
+                    read=read, factor=format_number(factor)
+                )
     return _("Not this: too large.") if given > right else _("Not this: too small.")

@@ -15,6 +15,7 @@ from granum.studies.expressions import Expression
 
 PLACE = re.compile(r"\{([^{}]+)\}")
 STEP = re.compile(r"step(\d+)")
+TOLERANCE = 0.02
 
 
 @dataclass
@@ -99,3 +100,20 @@ def filled_text(text: str, numbers: Numbers) -> str:
         return f"{format_number(value)} {pretty_unit(unit)}".strip()
 
     return PLACE.sub(put, text)
+
+
+def tolerance_of(step: dict[str, Any], right: float) -> float:
+    """How far an answer may lie from the calculated one, in the unit that is asked for: a share of it, and at
+    least what the course itself is off by reading or rounding.
+    """
+    return max(step.get("tolerance", TOLERANCE) * abs(right), step["expected"].get("within", 0.0))
+
+
+def tolerance_text(step: dict[str, Any], place: int, numbers: Numbers) -> str:
+    """How far an answer may lie off, as a page tells it beforehand: ``2 %``, or ``0.5 °C``."""
+    asked = step["expected"]
+    share, within = step.get("tolerance", TOLERANCE), asked.get("within", 0.0)
+    # nothing is calculated for this where the share alone decides: a statement stands at once
+    if within and within > share * abs(numbers.result(place)[0]):
+        return f"{format_number(within)} {pretty_unit(asked['unit'])}".strip()
+    return f"{format_number(100.0 * share)} %"

@@ -25,6 +25,31 @@ export function keepDraft(place, text) {
   }
 }
 
+const TRAIL = 'granum-steps';
+const MOST_KEPT = 400_000; // characters: what is taken back must not crowd out what was typed
+/** The steps that can be taken back and made again on the line in front: they outlive a reload, in this tab. */
+export function keepSteps(place, text, past, future) {
+  for (let steps = past; ; steps = steps.slice(Math.ceil(steps.length / 2))) {
+    const trail = JSON.stringify({ place, text, past: steps, future });
+    if (trail.length > MOST_KEPT && steps.length) continue;
+    try {
+      sessionStorage.setItem(TRAIL, trail);
+    } catch {
+      /* no room: they last as long as the page */
+    }
+    return;
+  }
+}
+/** Those steps, if they lead to this text of this line; null otherwise. */
+export function keptSteps(place, text) {
+  try {
+    const trail = JSON.parse(sessionStorage.getItem(TRAIL));
+    return trail?.place === place && trail.text === text ? trail : null;
+  } catch {
+    return null;
+  }
+}
+
 const through = async (bytes, stream) =>
   new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 

@@ -1,5 +1,5 @@
 // One step of an exercise: an answer typed or chosen, marked at once with its reason; hint, answer and chart on request.
-import { html, t, ask, link, useAnswer, useKept, useRef, useState, settings, Working } from './core.js';
+import { html, t, ask, link, useAnswer, useEffect, useKept, useRef, useState, settings, Working } from './core.js';
 import { Quantity } from './quantity.js';
 import { Sensitivity } from './sensitivity.js';
 import { note } from './progress.js';
@@ -20,7 +20,7 @@ export function Step({ name, place, seed, step, record }) {
     kept.verdict && (kept.language === settings.language ? kept.verdict.text : t(kept.verdict.verdict));
   const [hint, setHint] = useState(false);
   const [open, setOpen] = useState(false);
-  const [busy, setBusy] = useState(false);
+  const [busy, setBusy] = useState(0); // answers on their way: a second one need not wait for the first
   const [problem, setProblem] = useState('');
   const chosen = step.choices.length > 0;
   const right = kept.verdict?.verdict === 'right';
@@ -29,25 +29,28 @@ export function Step({ name, place, seed, step, record }) {
     latest.current = next;
     keep(next);
   };
-  const check = async () => {
+  const marked = async () => {
     const { turn, text } = latest.current;
-    if (!text.trim() || busy) return;
-    setBusy(true);
+    const verdict = await ask(`/api/exercises/${encodeURIComponent(name)}`, { step: place, answer: text, seed });
+    if (latest.current.turn === turn) hold({ ...latest.current, verdict, language: settings.language });
+    return { verdict, text };
+  };
+  useEffect(() => {
+    // a verdict of before the change of language is said again in the new one; it counts once
+    if (kept.verdict && kept.language !== settings.language) marked().catch(() => {});
+  }, []);
+  const check = async () => {
+    if (!latest.current.text.trim()) return;
+    setBusy((count) => count + 1);
     setProblem('');
     try {
-      const verdict = await ask(`/api/exercises/${encodeURIComponent(name)}`, {
-        step: place,
-        answer: text,
-        seed,
-      });
-      if (latest.current.turn === turn)
-        hold({ ...latest.current, verdict, language: settings.language });
+      const { verdict, text } = await marked();
       if (verdict.verdict !== 'unclear')
         note(name, place, { right: verdict.verdict === 'right', answer: text, seed });
     } catch (fault) {
       setProblem(fault.message);
     }
-    setBusy(false);
+    setBusy((count) => count - 1);
   };
   const reveal = () => {
     if (!open && !right) note(name, place, { shown: true, seed });
@@ -64,9 +67,10 @@ export function Step({ name, place, seed, step, record }) {
         ? html`<${Choices} step=${step} group=${`choice-${place}`} text=${kept.text} onChange=${change} />`
         : html`<${Quantity} p=${step.quantity} label=${step.label} text=${kept.text} onChange=${change} onEnter=${check} />`
     }
-      <div class="row"><button class="button main" disabled=${!kept.text.trim() || busy}>${t('Check')}</button>
+      <div class="row"><button class="button main" disabled=${!kept.text.trim()}>${busy && !kept.verdict ? t('Marking…') : t('Check')}</button>
       ${(step.hint || step.equation) && html`<button type="button" class="button" aria-expanded=${String(hint)} onClick=${() => setHint(!hint)}>${t('Hint')}</button>`}
       <button type="button" class="button" aria-expanded=${String(open)} onClick=${reveal}>${open ? t('Hide the answer') : t('Show the answer')}</button></div></form>
+    ${step.within && !kept.verdict && html`<p class="small dim" data-within>${t('Right within {share}.', { share: step.within })}</p>`}
     <p role="status" data-verdict=${kept.verdict?.verdict ?? ''} class=${`mark ${right ? 'ok' : 'out'}`}>${kept.verdict && html`${right ? '✓' : '✗'} <${Indexed} text=${said} />`}</p>
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
     ${!kept.verdict && record?.right && html`<p class="small ok">✓ ${t('Solved before.')}</p>`}

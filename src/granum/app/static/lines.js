@@ -16,9 +16,9 @@ import {
   Working,
 } from './core.js';
 import { order } from './cards.js';
-import { byTitle, caseAt, drafted, keepDraft, packed } from './drafts.js';
+import { byTitle, caseAt, drafted, keepDraft, keepSteps, keptSteps, packed } from './drafts.js';
 import { Editor } from './line_editor.js';
-import { Forms, learn } from './line_forms.js';
+import { Forms, learn, pretty } from './line_forms.js';
 import { NewLine } from './line_new.js';
 import { Outcome } from './line_outcome.js';
 import { Palette } from './line_palette.js';
@@ -75,6 +75,7 @@ export function Lines({ state }) {
   const [palette, setPalette] = useState(null);
   const [chosen, choose] = useState(NOTHING);
   const [writing, setWriting] = useState(false);
+  const [removed, setRemoved] = useState(null);
   const stop = useRef(null);
   const latest = useRef('');
   const saved = useRef('');
@@ -91,6 +92,9 @@ export function Lines({ state }) {
     files();
   }, [settings.language]);
   useEffect(() => () => stop.current?.abort(), []);
+  useEffect(() => {
+    if (where.current && latest.current) keepSteps(where.current, latest.current, past, future);
+  }, [past, future]);
   useEffect(() => {
     if (state.key.includes(':')) open(state.key, state.values.case);
   }, [state.visit]);
@@ -152,8 +156,9 @@ export function Lines({ state }) {
         drop();
         setKept(recall('compared ' + wanted, []));
         setOutcome(null);
-        setPast(found.changed ? [found.saved] : []);
-        setFuture([]);
+        const steps = keptSteps(wanted, found.text);
+        setPast(steps?.past ?? (found.changed ? [found.saved] : []));
+        setFuture(steps?.future ?? []);
         choose(NOTHING);
         setPalette(null);
       }
@@ -222,6 +227,7 @@ export function Lines({ state }) {
       setError(null);
       try {
         const found = await ask('/api/case/build', { case: latest.current, operation, arguments: given });
+        if (operation === 'remove') setRemoved({ name: pretty(given.name), text: found.case });
         await change(found.case);
         const now = await ask('/api/case/form', { case: found.case, across: across.current, place: where.current });
         const fresh = (table) => Object.keys(now[table]).find((name) => !(name in (before?.[table] || {})));
@@ -272,7 +278,7 @@ export function Lines({ state }) {
   const redo = () => step(future, setFuture, setPast);
   useEffect(() => {
     const key = (e) => {
-      if (!(e.ctrlKey || e.metaKey) || e.target.matches?.('input, textarea')) return;
+      if (!(e.ctrlKey || e.metaKey) || e.target.matches?.('input:not([type=radio], [type=checkbox]), textarea')) return;
       const letter = e.key.toLowerCase();
       if (letter === 'z' && !e.shiftKey) undo();
       else if (letter === 'y' || letter === 'z') redo();
@@ -399,6 +405,7 @@ export function Lines({ state }) {
       setBusy(false);
     }} job=${() => stop.current?.signal.job} text=${t('Working… a new line takes a little while the first time.')} />
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
+    ${removed?.text === text && html`<p class="row small" role="status" data-removed>${t('Deleted: {name}', { name: removed.name })} <button class="button" onClick=${undo}>${t('Undo')}</button></p>`}
     ${missing.length > 0 && html`<div class="message caution" data-missing>${missing.map((one) => html`<p>▲ ${one}</p>`)}</div>`}
     ${
       !text &&

@@ -38,6 +38,8 @@ export const french = {
   'Laws': 'Lois',
   'Lab tests': 'Essais de laboratoire',
   'Search everything': 'Tout chercher',
+  'Deleted: {name}': 'Supprimé : {name}',
+  'Right within {share}.': 'Juste à {share} près.',
   'Close': 'Fermer',
   'Found': 'Trouvé',
   '{count} found': '{count} trouvés',

@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY
 from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.centrifuges.formulas.conveying import QuarterTurn as FrictionAngle
 from granum.centrifuges.formulas.conveying import power_pushing
@@ -21,6 +22,7 @@ from granum.centrifuges.formulas.spinning import (
     spin_off_time,
 )
 from granum.core import equipment
+from granum.core.i18n import _
 from granum.core.kinds import (
     CakeResistance,
     Distance,
@@ -35,6 +37,7 @@ from granum.core.kinds import (
     VoidFraction,
 )
 from granum.core.limits import Limit
+from granum.streams.cake_course import POINTS, Stage, still
 from granum.streams.cake_maker import CakeMaker
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
@@ -196,6 +199,25 @@ class FilteringCentrifuge(CakeMaker):
             lowest,
         )
 
+    def formed(self, inside: Spun, feed: Stream) -> Stage:
+        """The cake while it forms: at once of its whole thickness, which strokes or the stay set."""
+        return still(_("forming"), inside.spin.loading_time, inside.thickness)
+
+    def stages(self, inside: Spun, feed: Stream, wash: Stream | None = None) -> list[Stage]:
+        spin, thick = inside.spin, inside.thickness
+
+        def wet(time: Any) -> Any:
+            return self.saturation(feed, spin._replace(drainage_time=time))
+
+        rest = spin.cycle_time - spin.loading_time - spin.wash_time - spin.spin_off_time - spin.drainage_time
+        return [
+            self.formed(inside, feed),
+            still(_("washing"), spin.wash_time, thick),
+            still(_("liquid sinks in"), spin.spin_off_time, thick),
+            still(_("draining"), spin.drainage_time, thick, wet),
+            still(_("discharge and return"), jnp.maximum(rest, 0.0), np.nan, np.nan),
+        ]
+
     def inside(self, feed: Stream, wash: Stream | None = None) -> Spun:
         spin = self.spin(feed, wash)
         left, wet = self.solute_left(feed, wash), self.saturation(feed, spin)
@@ -317,6 +339,17 @@ class Peeler(SetCake):
     def medium(self, feed: Stream) -> Any:
         grown = 1.0 + self.heel_blinding * jnp.maximum(self.heel_cycles - 1.0, 0.0)
         return self.medium_resistance + self.heel_thickness / self.permeability(feed) * grown
+
+    def formed(self, inside: Spun, feed: Stream) -> Stage:
+        grown = float(inside.thickness) * np.linspace(0.0, 1.0, POINTS)
+        case = self.case(feed) | {"cake_radius": self.cake_outer - grown}
+        # the shape alone: how much cake a filtrate carries and what drives it scale all of it
+        time = np.asarray(
+            loading_time_basket(radius_inner=self.radius_inner, cake_volume_per_filtrate=1.0, **case)
+        )
+        return Stage(
+            _("forming"), time * (float(inside.spin.loading_time) / time[-1]), grown, np.ones(POINTS)
+        )
 
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
         case = self.case(feed)

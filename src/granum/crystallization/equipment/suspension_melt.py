@@ -121,7 +121,7 @@ class SuspensionMeltCrystallizer(Unit):
     heat_of_fusion: SpecificEnergy
     frozen_fraction: OpenShare
     dynamic_viscosity: DynamicViscosity
-    temperature: Temperature | None = eqx.field(kw_only=True, default=None)
+    temperature_crystallizer: Temperature | None = eqx.field(kw_only=True, default=None)
     crystal_size: Length = eqx.field(kw_only=True, default=300e-6)
     wash_ratio: Annotated[Ratio, Within(0.0, 3.0)] = eqx.field(kw_only=True, default=1.05)
     wash_efficiency: Fraction = eqx.field(kw_only=True, default=0.999)
@@ -152,7 +152,7 @@ class SuspensionMeltCrystallizer(Unit):
         if not names:
             raise CaseError(_("The mixture has no liquid that could freeze."))
         pure = feed.mixture.index("liquids", self.pure_liquid) if self.pure_liquid else 0
-        given, card = self.temperature, type(self).card
+        given, card = self.temperature_crystallizer, type(self).card
         T = self._freezing(feed, pure) if given is None else jnp.asarray(given, dtype=float)
         there = jnp.asarray(True) if given is not None else feed.liquid_flow > feed.liquid[pure]
         unsolved((self.melting_temperature > T) | ~there, card, reason=TOO_WARM)
@@ -197,7 +197,7 @@ class SuspensionMeltCrystallizer(Unit):
             raise CaseError(
                 _(
                     "The freezing point of the mother liquor needs the molar mass of {names}: give it in the "
-                    "materials, or give 'temperature'."
+                    "materials, or give 'temperature_crystallizer'."
                 ).format(names=", ".join(f"'{name}'" for name in unknown))
             )
         flowing = feed.liquid_flow > 0.0

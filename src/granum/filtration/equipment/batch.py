@@ -9,6 +9,7 @@ from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
@@ -28,11 +29,11 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
-from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
 from granum.filtration.formulas.non_newtonian import filtration_time_power_law
 from granum.filtration.squeezing import void_ratio
 from granum.porous.formulas.non_newtonian import dynamic_viscosity_permeable_christopher_middleman
+from granum.streams.cake_course import POINTS, Stage
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
@@ -66,20 +67,9 @@ class BatchFilter(CakeFilter):
         """Dry cake mass per area when the filter is full."""
         return self.full_thickness * (1.0 - self.void_fraction) * s.solid_density
 
-    def formation_time(self, s: Slurry) -> Any:
-        """Time to fill."""
-        return filtration_time_constant_pressure(
-            self.loading(s) / s.dry_cake_per_filtrate,
-            1.0,
-            self.pressure_drop,
-            s.dynamic_viscosity,
-            self.resistance,
-            s.dry_cake_per_filtrate,
-            self.medium_resistance,
-        )
-
     def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
-        loading, formation = self.loading(s), self.formation_time(s)
+        loading = self.loading(s)
+        formation = self.formation_time(s, loading)
         void = self.full_thickness * self.void_fraction
         wash_time = self.wash_ratio(feed, wash) * void / (self.wash_rate_ratio * self.wash_flux(loading, s))
         cycle = formation + wash_time + self.deliquoring_time + self.dead_time
@@ -148,12 +138,12 @@ class FlatFilter(BatchFilter):
         last = (self.pressure_drop / (at_one * through)) ** (1.0 / law[1])
         return s._replace(dynamic_viscosity=self.pressure_drop / (through * last))
 
-    def formation_time(self, s: Slurry) -> Any:
+    def formation_time(self, s: Slurry, loading: Any) -> Any:
         law = self.law
         if law is None:
-            return super().formation_time(s)
+            return super().formation_time(s, loading)
         return filtration_time_power_law(
-            self.loading(s) / s.dry_cake_per_filtrate,
+            loading / s.dry_cake_per_filtrate,
             1.0,
             self.pressure_drop,
             *law,
@@ -251,20 +241,38 @@ class SqueezingFilter(BatchFilter):
         """Pressure at which what is squeezed out is moved."""
         return self.pressure_drop
 
+    def consolidated(self, time: Any) -> Any:
+        """Share of the possible squeezing that a time reaches."""
+        assert self.consolidation_coefficient is not None
+        solid = self.full_thickness * (1.0 - self.void_fraction)
+        return consolidation_ratio_terzaghi(consolidation_time(time, self.consolidation_coefficient, solid))
+
     @property
     def consolidation_ratio(self) -> Any:
         """Share of the possible squeezing that its time reaches."""
-        if self.consolidation_coefficient is None:
-            return 1.0
-        solid = self.full_thickness * (1.0 - self.void_fraction)
-        return consolidation_ratio_terzaghi(
-            consolidation_time(self.squeezing_time, self.consolidation_coefficient, solid)
-        )
+        return 1.0 if self.consolidation_coefficient is None else self.consolidated(self.squeezing_time)
 
-    def squeezed(self) -> Any:
+    def void_left(self, reached: Any) -> Any:
+        """Void volume per solid over that before squeezing, at a share of the possible squeezing."""
         after, before = self.void_fraction_end, self.void_fraction
         whole = (after / (1.0 - after)) / (before / (1.0 - before))
-        return 1.0 - self.consolidation_ratio * (1.0 - whole)
+        return 1.0 - reached * (1.0 - whole)
+
+    def squeezed(self) -> Any:
+        return self.void_left(self.consolidation_ratio)
+
+    def stages(self, inside: Caked, feed: Stream, wash: Stream | None = None) -> list[Stage]:
+        forming, washing, draining, rest = super().stages(inside, feed, wash)
+        share = np.linspace(0.0, 1.0, POINTS) ** 2
+        time = float(self.squeezing_time) * share
+        # without a coefficient only the end is known: a straight line leads there
+        reached = share if self.consolidation_coefficient is None else self.consolidated(time)
+        solid = 1.0 - self.void_fraction
+        thick = forming.thickness[-1] * np.asarray(solid + self.void_fraction * self.void_left(reached))
+        thin = np.full(POINTS, thick[-1])
+        squeezing = Stage(_("squeezing"), time, thick, np.ones(POINTS))
+        shorter = rest._replace(time=rest.time * max(1.0 - time[-1] / max(rest.time[-1], 1e-9), 0.0))
+        return [forming, washing, squeezing, draining._replace(thickness=thin), shorter]
 
     def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
         plan = super().plan(s, feed, wash)
@@ -409,14 +417,18 @@ class CandleFilter(BatchFilter):
         r0, r = self.candle_radius, self.candle_radius + self.full_cake_thickness
         return (1.0 - self.void_fraction) * s.solid_density * (r**2 - r0**2) / (2.0 * r0)
 
-    def formation_time(self, s: Slurry) -> Any:
-        r0, r = self.candle_radius, self.candle_radius + self.full_cake_thickness
-        packed = (1.0 - self.void_fraction) * s.solid_density
+    def thickness(self, loading: Any, solid_density: Any) -> Any:
+        r0, packed = self.candle_radius, (1.0 - self.void_fraction) * solid_density
+        return jnp.sqrt(r0**2 + 2.0 * r0 * loading / packed) - r0
+
+    def formation_time(self, s: Slurry, loading: Any) -> Any:
+        r0, packed = self.candle_radius, (1.0 - self.void_fraction) * s.solid_density
+        r = r0 + self.thickness(loading, s.solid_density)
         cake = self.resistance * packed**2 * (0.5 * r**2 * jnp.log(r / r0) - 0.25 * (r**2 - r0**2))
         return (
             s.dynamic_viscosity
             / (self.pressure_drop * s.dry_cake_per_filtrate)
-            * (cake + self.medium_resistance * self.loading(s))
+            * (cake + self.medium_resistance * loading)
         )
 
     def measured(

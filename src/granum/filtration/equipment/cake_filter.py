@@ -10,7 +10,9 @@ from dataclasses import KW_ONLY
 from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     CakeResistance,
@@ -26,6 +28,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.core.limits import Limit
+from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 from granum.filtration.formulas.deliquoring import (
     capillary_number_cake,
     gas_velocity_deliquoring,
@@ -34,6 +37,7 @@ from granum.filtration.formulas.deliquoring import (
 )
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
 from granum.numerics.smooth import safe_divide
+from granum.streams.cake_course import POINTS, Stage, still
 from granum.streams.cake_maker import CakeMaker
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
@@ -180,6 +184,42 @@ class CakeFilter(CakeMaker):
     def thickness(self, loading: Any, solid_density: Any) -> Any:
         """Cake thickness of a dry mass per area."""
         return loading / ((1.0 - self.void_fraction) * solid_density)
+
+    def formation_time(self, s: Slurry, loading: Any) -> Any:
+        """Time to form a cake of a dry mass per area."""
+        return filtration_time_constant_pressure(
+            loading / s.dry_cake_per_filtrate,
+            1.0,
+            self.pressure_drop,
+            s.dynamic_viscosity,
+            self.resistance,
+            s.dry_cake_per_filtrate,
+            self.media_resistance(),
+        )
+
+    def formed(self, inside: Caked) -> Stage:
+        """The cake as it grows in its time: thinner than it should be where that is too short."""
+        s, plan = inside.slurry, inside.plan
+        loading = plan.dry_cake_mass_per_area * np.linspace(0.0, 1.0, POINTS)
+        time = np.asarray(self.formation_time(s, loading))
+        thick = np.asarray(self.thickness(loading, s.solid_density))
+        clock = float(plan.formation_time) * np.linspace(0.0, 1.0, POINTS) ** 2
+        return Stage(_("forming"), clock, np.interp(clock, time, thick), np.ones(POINTS))
+
+    def stages(self, inside: Caked, feed: Stream, wash: Stream | None = None) -> list[Stage]:
+        plan, forming = inside.plan, self.formed(inside)
+        thick = forming.thickness[-1]
+
+        def wet(time: Any) -> Any:
+            return self.saturation(inside.slurry, feed, plan._replace(deliquoring_time=time))
+
+        rest = plan.cycle_time - plan.formation_time - plan.wash_time - plan.deliquoring_time
+        return [
+            forming,
+            still(_("washing"), plan.wash_time, thick),
+            still(_("draining"), plan.deliquoring_time, thick, wet),
+            still(_("discharge and return"), jnp.maximum(rest, 0.0), np.nan, np.nan),
+        ]
 
     def squeezed(self) -> Any:
         """Void volume per solid after mechanical squeezing over that before; 1 where the filter does not

@@ -12,6 +12,7 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     Concentration,
@@ -35,7 +36,7 @@ from granum.settling.flux import passing_flux, steady_state
 from granum.streams.holdup import filled, trapezoid
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Dynamic, Limits, Unit, Utilities
+from granum.streams.units import Dynamic, Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA
 
 PERIODS = 12  # of the approach to the steady state
@@ -160,6 +161,21 @@ class ClarifierThickener(Unit, Dynamic):
         )
         some = applied > 0
         return Outlets(*(_either(some, a, b) for a, b in zip(thick, plain, strict=True)))
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        from granum.settling.charts import flux_diagram, layered
+
+        feed = inlets["feed"]
+        if float(feed.solid_flow) <= 0.0:
+            return {}
+        flow = float(feed.slurry_volume_flow)
+        below = min(float(self.underflow_volume_flow), flow)
+        state = flux_diagram(flow, float(concentration(feed)), below, float(self.area), self.settling)
+        last = made.inside.concentration[-1]
+        return {
+            _("Flux diagram with state point"): state,
+            _("Sludge over the depth"): layered(last, self.height),
+        }
 
     # -- in time
     # ---------------------------------------------------------------------------------------------------

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
+from granum.core.i18n import _
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
@@ -21,7 +24,7 @@ from granum.settling.equipment.gravity import (
 from granum.settling.equipment.rakes import RAKED, THICKENER, raked
 from granum.settling.flux import limiting_flux_underflow
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA
 
 Settling = Annotated[Any, Law("settling_velocity")]
@@ -108,6 +111,22 @@ class Thickener(Unit):
             "floats": floating_share(feed),
             "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
         }
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        from granum.settling.charts import operating_line
+
+        feed, found = inlets["feed"], made.figures
+        if float(feed.solid_flow) <= 0.0 or not np.isfinite(float(made.inside.limiting_flux)):
+            return {}  # nothing settles, or nothing is left to thicken
+        drawn = operating_line(
+            float(concentration(feed)),
+            float(self.underflow_concentration),
+            float(found.applied_flux),
+            float(found.limiting_flux),
+            float(found.limiting_concentration),
+            self.settling,
+        )
+        return {_("Flux curve and load of a thickener"): drawn}
 
     def drawn(self, inside: Any, outlets: Outlets, figures: ThickenerFigures, feed: Stream) -> dict[str, Any]:
         return {"electric_power_rake": raked(self.area, THICKENER), "area_installed": self.area}
