@@ -16,7 +16,6 @@ from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
-from granum.filtration.kinds import PowerPerArea
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
