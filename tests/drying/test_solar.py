@@ -211,7 +211,8 @@ def test_fruit_of_two_days_and_a_fan_before_it() -> None:
     assert wet == pytest.approx(44.0, rel=1e-9)
     blown = text.replace('to = "dryer.gas"', 'to = "fan.feed"').replace(
         "[streams]",
-        '[units.fan]\nmodel = "streams.fan"\npressure_rise = "50 Pa"\n\n[streams]\nblown = ["fan.product", "dryer.gas"]',
+        '[units.fan]\nmodel = "streams.fan"\npressure_rise = "50 Pa"\n\n[streams]\n'
+        'blown = ["fan.product", "dryer.gas"]',
     )
     other = read_text(blown).solve()
     assert max(other.audit["mass_closure"], other.audit["energy_closure"]) < 1e-9

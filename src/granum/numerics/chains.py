@@ -206,9 +206,7 @@ def factor_chain(blocks: Blocks) -> Factors:
     )
     first = (jnp.zeros_like(blocks.by_shared[0]), jnp.zeros_like(mid[0]))
     _last, (answer, closed, upper) = _scan(eliminate, first, rows)
-    return Factors(
-        blocks.before, inverse, answer, blocks.part_before, blocks.part, blocks.low, closed, upper
-    )
+    return Factors(blocks.before, inverse, answer, blocks.part_before, blocks.part, blocks.low, closed, upper)
 
 
 def solve_factored(factors: Factors, right: Cells) -> Cells:
@@ -265,8 +263,8 @@ def solve_chain(
     Parameters
     ----------
     function: rates of change of what the cells hold. A lane, and what it gives, may depend on itself, on the
-        same lane of the cell before and on the shared unknowns of its cell, the shared rest on those of the neighbors. It may
-        close over traced values.
+        same lane of the cell before and on the shared unknowns of its cell, the shared rest on those of the
+        neighbors. It may close over traced values.
     start: first guess, unknowns scaled to about one.
     capacity: what a cell holds per unknown, so that ``capacity · du/dt = rates``; zero for an equation
         without memory, any broadcastable shapes.

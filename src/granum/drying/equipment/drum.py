@@ -80,9 +80,10 @@ class DrumDryer(Unit):
     makes it thinner for a shorter time, so that the moisture reached hangs on area and steam alone. The
     product leaves between boiling and wall temperature, the closer to the wall the drier it is.
     ``heat_loss_share`` is of the steam's heat. The shaft drags its surface under the scraper, whose
-    ``blade_load`` and ``friction_coefficient`` are those of knives that lift a sheet (the latter 0 where a web
-    leaves by itself); ``drive_power_per_area`` is what rolls that feed, bearings and discharge take besides,
-    some third of the motors that makers install on such drums (from memory 1.2 to 2 kW/m²; our own estimate).
+    ``blade_load`` and ``friction_coefficient`` are those of knives that lift a sheet (the latter 0 where a
+    web leaves by itself); ``drive_power_per_area`` is what rolls that feed, bearings and discharge take
+    besides, some third of the motors that makers install on such drums (from memory 1.2 to 2 kW/m²; our own
+    estimate).
     """
 
     diameter: Length

@@ -28,9 +28,9 @@ def shaft_power_scraper(
 ) -> Power:
     """Coulomb's friction of a knife pressed along the whole width of a cylinder, over the way of its surface.
 
-    A maker of doctors states 0.15 to 0.30 and, where they only clean, 90 to 220 N/m (read); knives that lift a
-    sheet are pressed with 2 to 5 kN/m (from memory, of tissue machines). What it takes to break the film is
-    not in it.
+    A maker of doctors states 0.15 to 0.30 and, where they only clean, 90 to 220 N/m (read); knives that lift
+    a sheet are pressed with 2 to 5 kN/m (from memory, of tissue machines). What it takes to break the film
+    is not in it.
 
     By hand: 0.2 · 200 N/m · 2 m at 0.5 m/s are 40 W.
 

@@ -33,7 +33,10 @@ AMBIENT = 298.15  # K, at which the liquid of a drop has its density
 # usual 1e-12 the balance of what leaves had closed to 1.5e-9 only
 TOLERANCE = 1e-13
 TURNS = 40  # of solid and gas
-NEAR, ASTRAY = 1e-5, 3.0  # of a change from one turn to the next: Newton's method may begin, or there is no use
+NEAR, ASTRAY = (
+    1e-5,
+    3.0,
+)  # of a change from one turn to the next: Newton's method may begin, or there is no use
 LESS_MIXED = (30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01)  # gas exchanged between neighbors over that through
 ROUGH, LONG, LONGEST = 1e-6, 300, 2000  # tolerance on the way there, steps on it and of the last attempt
 SLOWEST = 1e-3  # m/s, of a particle against its duct: below it would fall out, which a check reports

@@ -18,6 +18,7 @@ from granum.core.kinds import (
     MassPerAreaOrZero,
     MassTransferCoefficient,
     MediumResistance,
+    PowerPerArea,
     PressureDrop,
     Ratio,
     Speed,
