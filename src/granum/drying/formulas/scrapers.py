@@ -9,7 +9,7 @@ from granum.settling.kinds import LineLoad
 
 @formula(
     source="sunhong, a maker's page",
-    equation=r"P = \mu\,q\,B\,\frac{\omega D}{2}",
+    equation=r"P = \mu\,q\,l\,\frac{\omega D}{2}",
     typical={
         "diameter": (0.5, 2.0),
         "width": (0.5, 5.0),
