@@ -105,3 +105,21 @@ def test_sized_for_a_moisture_it_takes_as_many_vessels_as_its_gas_makes_spout() 
     assert float(made.figures.moisture_dry_basis) == pytest.approx(0.19, rel=1e-6)
     assert float(unit.parallel_number) > 1.0
     assert checked(made, "minimum spouting").ok
+
+
+def test_petersons_peas_dry_in_the_air_that_spouts_them() -> None:
+    """Almost two short tons an hour through 8.8 % of moisture in two feet (abstract, read), the example; what
+    the air loses is what the water takes and what warms the grains, by hand.
+    """
+    run = gr.read("examples/dryers/spouted-bed.toml").solve()
+    unit, out = run.units["bed"], run.streams["dry_peas"]
+    assert all(c.ok for c in unit.checks), [c.name for c in unit.checks if not c.ok]
+    feed = run.streams["harvest"]
+    wet = [float(s.liquid_flow / (s.solid_flow + s.liquid_flow)) for s in (feed, out)]
+    assert wet[0] - wet[1] == pytest.approx(0.088, abs=0.003)
+    assert 0.95 < 3600.0 * float(feed.mass_flow) / (4000.0 * 0.45359237) < 1.0
+    T = float(out.temperature) - 273.15
+    given = 0.99 * 2500.0 * 1.01 * (282.0 - T) + 0.01 * 2500.0 * 1.9 * (282.0 - T)  # kJ/h
+    taken = float(unit.values.evaporation_rate) * 3600.0 * (2501.0 + 1.86 * T - 4.19 * 15.0)
+    taken += (1340.0 * 1.6 + float(out.liquid_flow) * 3600.0 * 4.19) * (T - 15.0)
+    assert given == pytest.approx(taken, rel=0.03)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.contracts.dryer_settings import NUMBERS, PRODUCT, WITH_CELLS
 from tests.sharing.streams import air, wet
 
 import granum as gr
@@ -216,3 +219,29 @@ def test_sealed_grains_are_a_counter_current_heat_exchanger() -> None:
     falls = fall_time(d, density * 1.01, 1.0, rising, length, warm)
     assert float(made.figures.residence_time) == pytest.approx(falls, rel=0.005)
     assert falls == pytest.approx(length / speed, rel=0.1)
+
+
+@pytest.mark.long
+def test_towers_that_went_to_and_fro_are_solved_and_tell_how_they_change() -> None:
+    """Rows of the hundred random towers: grains that hardly outrun the gas, and water that goes round. The
+    derivative by the height is that of two heights.
+    """
+    rows = np.random.default_rng(11).random((100, NUMBERS))
+
+    def dried(height: Any, x: Any) -> Any:
+        setting = WITH_CELLS["spray counter-current"](x, PRODUCT["surface"], 1.0)
+        unit = eqx.tree_at(lambda d: d.length, setting.unit, setting.unit.length * height)
+        inside = unit.inside(**setting.inlets)
+        out = unit.outlets(inside, **setting.inlets)
+        told = jnp.stack([out.product.moisture_dry_basis, out.exhaust.temperature])
+        closed = closure(setting.inlets.values(), [out.product, out.exhaust], out.heat_duty)
+        return told, (inside.profile.converged, jnp.maximum(closed.mass, closed.energy))
+
+    moved = jax.jit(lambda height, x: jax.jvp(lambda h: dried(h, x), (height,), (1.0,)))
+    for row in (13, 17, 37, 8):
+        (_told, (well, lost)), (slope, _aux) = moved(1.0, rows[row])
+        assert bool(well), row
+        assert float(lost) < 1e-9, row
+        if row == 8:
+            low, high = (moved(h, rows[row])[0][0] for h in (1.0 - 1e-4, 1.0 + 1e-4))
+            assert np.asarray(slope) == pytest.approx(np.asarray(high - low) / 2e-4, rel=1e-5)

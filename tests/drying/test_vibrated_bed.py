@@ -6,6 +6,7 @@ import jax.numpy as jnp
 import pytest
 from tests.sharing.streams import air, wet
 
+import granum as gr
 from granum import drying
 from granum.drying.equipment.vibrated_bed import VibratedBedDryer
 from granum.drying.gas_solid.kinetics import SurfaceKinetics
@@ -84,3 +85,18 @@ def test_sized_by_its_weir() -> None:
     slow = VibratedBedDryer.size(0.005, FEED, GAS, 0.45, KINETICS, 6.0, cells=3)
     assert float(slow.weir_height) < 0.002
     assert float(slow(FEED, GAS).product.moisture_dry_basis) < 0.005
+
+
+def test_salt_is_dried_and_cooled_for_its_bags() -> None:
+    """The example: every check of both floors, the heat of the air that cools, closure of the line."""
+    run = gr.read("examples/dryers/vibrated-bed.toml").solve()
+    for unit in run.units.values():
+        assert all(c.ok for c in unit.checks), [c.name for c in unit.checks if not c.ok]
+    assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
+    product, dry, air, warm = (run.streams[n] for n in ("product", "dry_salt", "cold_air", "warmed_air"))
+    assert float(dry.moisture_dry_basis) < 3e-3
+    assert float(product.temperature) < 313.15
+    lost = 12e3 * 0.87 * float(dry.temperature - product.temperature)  # kJ/h of the salt
+    gained = 11e3 * 1.015 * float(warm.temperature - air.temperature)
+    evaporated = 3600.0 * float(dry.liquid_flow) * 2440.0
+    assert lost == pytest.approx(gained + evaporated, rel=0.08)

@@ -241,6 +241,24 @@ def test_drum_dryer_of_the_notes():
     assert float(closure((feed,), (out.product, out.vapor), out.heat_duty).energy) < 1e-12
 
 
+def test_drum_is_turned_under_its_knife():
+    """By hand 0.2 · 2 kN/m · 1.93 m at 0.178 m/s; the whole well below the motor of 5.5 to 7.5 kW that makers
+    put on a drum of this size (from memory), and a hundredth or two of the heat; a web that leaves by itself
+    drags nothing.
+    """
+    line = gr.read(FOLDER / "drum.toml")
+    run = line.solve()
+    assert run.figure("drum.shaft_power") == pytest.approx(0.2 * 2e3 * 1.93 * 0.178, rel=1e-3)
+    drive = float(run.units["drum"].uses["electric_power_drive"])
+    assert 500.0 * run.figure("drum.area") < drive < 5.5e3
+    assert 0.01 < drive / run.utilities.heat_input < 0.03
+    slower = line.with_values(**{"drum.rotation_speed": "1.7 rpm"}).solve()
+    assert slower.figure("drum.shaft_power") == pytest.approx(0.5 * run.figure("drum.shaft_power"))
+    web = line.with_values(**{"drum.friction_coefficient": 0.0, "drum.drive_power_per_area": 0.0}).solve()
+    assert web.utilities.electric_power == 0.0
+    assert web.figure("drum.moisture_dry_basis") == run.figure("drum.moisture_dry_basis")
+
+
 def test_drum_sized_and_run_meet():
     line = gr.read(FOLDER / "drum.toml")
     unit, feed = line.sheet.units["drum"], line.sheet.feeds["mash"]

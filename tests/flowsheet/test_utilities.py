@@ -14,6 +14,7 @@ from granum.cases.reading import read_text
 from granum.core.errors import InputError
 from granum.costs.formulas.emissions import emission_factor
 from granum.flowsheet import Flowsheet
+from granum.reports.sheets import table_rows
 from granum.reports.utilities import utility_table
 from granum.streams.equipment.basics import Heater
 from granum.streams.equipment.movers import Fan, Pump
@@ -218,3 +219,18 @@ def test_cold_costs_the_electricity_of_a_machine_with_half_of_carnots_coefficien
     whole = taken.electric_power + taken.heat_input + taken.refrigeration_power
     assert taken.energy_per_water * taken.evaporation_rate == pytest.approx(whole, rel=1e-12)
     assert taken.refrigeration_power > 0.5 * taken.heat_input
+
+
+def test_rounding_is_no_heat_and_what_is_not_taken_is_in_no_table() -> None:
+    """An adiabatic flash has no heat, and takes no steam; a fan of a microwatt keeps its own."""
+    flash = gr.alone("crystallization.vacuum_crystallizer").solve()
+    (unit,) = flash.units.values()
+    assert float(unit.values.heat_duty) == 0.0
+    assert float(unit.values.condenser_duty) > 1e5
+    assert flash.carriers["low_pressure_steam"] == 0.0
+    taken = {row[1]: row[3] for row in table_rows(flash)["utilities"][1:]}
+    assert all(taken.values())
+    assert taken["electric_power_agitator"] > 0.0
+    assert not any(name.startswith("heat_input") for name in taken)
+    little = Flowsheet({"f": Fan(1.0)}, {"air": air(1e-6)}, {"air": ("", "f.feed")}).solve()
+    assert little.figure("f.shaft_power") == pytest.approx(1e-6 / 1.18 / 0.65, rel=0.01)

@@ -57,3 +57,48 @@ def test_the_examined_path_arrives_where_lanes_bend_within_a_step() -> None:
         assert 0.0 < water < 0.5
         assert 0.3 < warmth < given[1]
     assert int(solve(jnp.array([1.0, 0.6, 2.0, 1.0, 0.1]))[0].steps) < 20  # mild ones arrive by themselves
+
+
+def falling(hold: float):
+    """Three cells with two lanes: what a lane gives to the gas that rises hangs on its own moisture, on that
+    of the cell before and on the gas, as the time in a cell hangs on the speed before it.
+    """
+
+    def rates(u: Cells) -> Rates:
+        water, gas = u.lanes[..., 0], u.shared[:, 0]
+        before = jnp.concatenate([jnp.array([[1.0, 0.7]]), water[:-1]])
+        rate = 0.3 * (0.3 * before + 0.7 * water) ** 2 * (hold - gas[:, None])
+        below = jnp.concatenate([gas[1:], jnp.array([0.2])])
+        return Rates((before - water - rate)[..., None], 0.8 * rate[..., None], (below - gas)[:, None])
+
+    return rates
+
+
+def test_what_a_lane_gives_may_hang_on_the_cell_before() -> None:
+    """One step solves the linear system of all derivatives; the solution moves with a parameter as far as two
+    of them are apart.
+    """
+    u = Cells(jnp.linspace(0.9, 0.4, 6).reshape(3, 2, 1), jnp.array([[0.5], [0.4], [0.3]]))
+
+    def flat(v):
+        made = falling(2.0)(Cells(v[:6].reshape(3, 2, 1), v[6:].reshape(3, 1)))
+        return jnp.concatenate([made.lanes.ravel(), (made.shared + jnp.sum(made.parts, axis=1)).ravel()])
+
+    at = jnp.concatenate([u.lanes.ravel(), u.shared.ravel()])
+    value, push = jax.linearize(falling(2.0), u)
+    right = Cells(value.lanes, value.shared + jnp.sum(value.parts, axis=1))
+    found = chains.solve_factored(chains.factor_chain(chains.chain_blocks(push, u)), right)
+    whole = jnp.linalg.solve(jax.jacfwd(flat)(at), flat(at))
+    np.testing.assert_allclose(
+        jnp.concatenate([found.lanes.ravel(), found.shared.ravel()]), whole, rtol=1e-12
+    )
+
+    def solved(hold):
+        made = solve_chain(falling(hold), u, Cells(1.0, 1.0))
+        return made.state.shared[0, 0], (made.converged, made.steps)
+
+    moved, (well, steps) = jax.grad(solved, has_aux=True)(2.0)
+    assert bool(well)
+    assert int(steps) <= 8  # quadratic
+    apart = (solved(2.0 + 1e-5)[0] - solved(2.0 - 1e-5)[0]) / 2e-5
+    np.testing.assert_allclose(moved, apart, rtol=1e-8)

@@ -158,6 +158,7 @@ PressureGradient = Annotated[Any, _any("pressure gradient", "Pa/m", "bar/m", "kP
 Torque = Annotated[Any, _nonnegative("torque", "N*m", "N*m", "kN*m")]
 Force = Annotated[Any, _any("force", "N", "N", "mN", "kN", "uN")]
 Stress = Annotated[Any, _any("stress", "Pa", "MPa", "kPa", "N/mm^2")]
+PowerPerArea = Annotated[Any, _nonnegative("power per area", "W/m^2", "kW/m^2")]
 SurfaceTension = Annotated[Any, _positive("surface tension", "N/m", "mN/m", "dyn/cm")]
 Permeability = Annotated[Any, _positive("permeability", "m^2", "darcy", "um^2")]
 Permeance = Annotated[Any, _positive("permeance", "m/(s Pa)", "L/(m^2 hour bar)", "m/(s Pa)")]

@@ -296,6 +296,9 @@ from granum.drying.formulas.rotary import (
     shaft_power_rotary_drum as shaft_power_rotary_drum,
     volumetric_heat_transfer_rotary as volumetric_heat_transfer_rotary,
 )
+from granum.drying.formulas.scrapers import (
+    shaft_power_scraper as shaft_power_scraper,
+)
 from granum.drying.formulas.solar import (
     Draft as Draft,
     SolarHeat as SolarHeat,

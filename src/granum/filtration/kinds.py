@@ -24,7 +24,6 @@ ResidualDrag = Annotated[Any, Kind("pressure drop per velocity", "Pa*s/m", lower
 DustResistance = Annotated[Any, Kind("resistance of a dust cake", "1/s", lower=0.0)]
 EnergyPerVolume = Annotated[Any, Kind("energy per volume", "J/m^3", lower=0.0, display=("kWh/m^3", "kJ/m^3"))]
 VolumePerArea = Annotated[Any, Kind("volume per area", "m", lower=0.0, display=("L/m^2", "mm"))]
-PowerPerArea = Annotated[Any, Kind("power per area", "W/m^2", lower=0.0, display=("kW/m^2",))]
 LoadPerWidth = Annotated[Any, Kind("mass flow per width", "kg/(m*s)", lower=0.0, display=("kg/(m*hour)",))]
 FlowPerWidth = Annotated[Any, Kind("volume flow per width", "m^2/s", lower=0.0, display=("m^3/(m*hour)",))]
 ForcePerWidth = Annotated[

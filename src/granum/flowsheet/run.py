@@ -32,6 +32,7 @@ from granum.flowsheet.labelled import attributes, stream_dataset, stream_frame
 from granum.flowsheet.ladder import climb
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.passing import told
+from granum.flowsheet.rounding import thresholds, without_noise
 from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution
@@ -49,7 +50,7 @@ from granum.flowsheet.utilities import (
 )
 from granum.flowsheet.watching import Watch
 from granum.streams.stream import Stream, median_size
-from granum.streams.units import Check, Operated, Unit
+from granum.streams.units import Check, Operated, Sheet, Unit
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -242,9 +243,18 @@ class Run:
         return {k.name: self.solution.streams[k.name] for k in self.sheet.links}
 
     @cached_property
+    def sheets(self) -> dict[str, Sheet]:
+        """What every unit says of itself, without what is only rounding."""
+        least = thresholds(self.streams.values())
+        return {
+            name: without_noise(self.sheet.units[name], self.solution.sheets[name], least)
+            for name in self.sheet.order
+        }
+
+    @cached_property
     def units(self) -> dict[str, UnitReport]:
         """Every unit's figures, checks and utilities."""
-        counts, sheets = counted(self.sheet), self.solution.sheets
+        counts, sheets = counted(self.sheet), self.sheets
         return {
             name: UnitReport(
                 name,
@@ -262,16 +272,15 @@ class Run:
         """What the line takes in all: power, heat and cold, energy per product and per water removed,
         greenhouse gas.
         """
-        sheets = self.solution.sheets
-        uses = {name: sheets[name].uses for name in self.sheet.order}
-        figures = {name: sheets[name].figures for name in self.sheet.order}
+        uses = {name: sheet.uses for name, sheet in self.sheets.items()}
+        figures = {name: sheet.figures for name, sheet in self.sheets.items()}
         found = compiled(totals)(*as_arrays((self.sheet, uses, figures, self.streams)))
         return Totals(*(float(x) for x in found))
 
     @cached_property
     def carriers(self) -> dict[str, float]:
         """What the line takes of every carrier (W) and material (kg/s)."""
-        uses = {name: self.solution.sheets[name].uses for name in self.sheet.order}
+        uses = {name: sheet.uses for name, sheet in self.sheets.items()}
         return {name: float(x) for name, x in by_carrier(self.sheet, uses).items()}
 
     def utility_cost(self, prices: Mapping[str, Any]) -> float:

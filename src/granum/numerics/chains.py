@@ -69,12 +69,13 @@ class ChainSolution(NamedTuple):
 
 class Blocks(NamedTuple):
     """Derivatives of the rates of each cell: of a lane by the lane before, itself and the shared; of its part
-    by itself and the shared; of the shared by those before, of the cell and after.
+    by the same; of the shared by those before, of the cell and after.
     """
 
     before: Any
     own: Any
     by_shared: Any
+    part_before: Any
     part: Any
     part_by_shared: Any
     low: Any
@@ -142,6 +143,7 @@ def chain_blocks(push: Callable[[Cells], Rates], like: Cells) -> Blocks:
         before,
         lanes[cells % p, cells],
         jnp.sum(by_shared, axis=0),
+        parts[(cells - 1) % p, cells].at[0].set(0.0),
         parts[cells % p, cells],
         jnp.sum(part_by_shared, axis=0),
         shared[(cells - 1) % q, cells].at[0].set(0.0),
@@ -172,6 +174,7 @@ class Factors(NamedTuple):
     before: Any
     inverse: Any
     by_shared: Any  # of the eliminated lanes
+    part_before: Any
     part: Any
     low: Any
     shared: Any  # inverse of the shared block of each cell, all before it eliminated
@@ -185,16 +188,25 @@ def factor_chain(blocks: Blocks) -> Factors:
 
     def eliminate(carry: tuple, row: tuple) -> tuple[tuple, tuple]:
         lanes, shared = carry  # answer of the cell before to the shared unknowns of this one
-        before, inverse, by_shared, part, low, mid, high = row
+        before, inverse, by_shared, part_before, part, low, mid, high = row
         answer = inverse @ (by_shared - before @ lanes)
-        closed = _inverse(mid - low @ shared - jnp.sum(part @ answer, axis=0))
+        closed = _inverse(mid - low @ shared - jnp.sum(part @ answer + part_before @ lanes, axis=0))
         upper = closed @ high
         return (-answer @ upper, upper), (answer, closed, upper)
 
-    rows = (blocks.before, inverse, blocks.by_shared, blocks.part, blocks.low, mid, blocks.high)
+    rows = (
+        blocks.before,
+        inverse,
+        blocks.by_shared,
+        blocks.part_before,
+        blocks.part,
+        blocks.low,
+        mid,
+        blocks.high,
+    )
     first = (jnp.zeros_like(blocks.by_shared[0]), jnp.zeros_like(mid[0]))
     _last, (answer, closed, upper) = _scan(eliminate, first, rows)
-    return Factors(blocks.before, inverse, answer, blocks.part, blocks.low, closed, upper)
+    return Factors(blocks.before, inverse, answer, blocks.part_before, blocks.part, blocks.low, closed, upper)
 
 
 def solve_factored(factors: Factors, right: Cells) -> Cells:
@@ -202,9 +214,10 @@ def solve_factored(factors: Factors, right: Cells) -> Cells:
 
     def forward(carry: tuple, row: tuple) -> tuple[tuple, tuple]:
         lanes, shared = carry
-        before, inverse, answer, part, low, closed, r, rs = row
+        before, inverse, answer, part_before, part, low, closed, r, rs = row
         own = jnp.einsum("mij,mj->mi", inverse, r - jnp.einsum("mij,mj->mi", before, lanes))
-        s = closed @ (rs - low @ shared - jnp.einsum("mij,mj->i", part, own))
+        given = jnp.einsum("mij,mj->i", part, own) + jnp.einsum("mij,mj->i", part_before, lanes)
+        s = closed @ (rs - low @ shared - given)
         x = own - answer @ s
         return (x, s), (x, s)
 
@@ -249,9 +262,9 @@ def solve_chain(
 
     Parameters
     ----------
-    function: rates of change of what the cells hold. A lane may depend on itself, on the same lane of the
-        cell before and on the shared unknowns of its cell, the shared rest on those of the neighbors. It may
-        close over traced values.
+    function: rates of change of what the cells hold. A lane, and what it gives, may depend on itself, on the
+        same lane of the cell before and on the shared unknowns of its cell, the shared rest on those of the
+        neighbors. It may close over traced values.
     start: first guess, unknowns scaled to about one.
     capacity: what a cell holds per unknown, so that ``capacity · du/dt = rates``; zero for an equation
         without memory, any broadcastable shapes.

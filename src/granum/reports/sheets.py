@@ -74,10 +74,10 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
             checks.append([unit, *told])
     taken: list[list[Any]] = [["unit", "utility", "carrier", "value", "unit of value", "counted"]]
     for unit, row in data["units"].items():
-        for name, use in row["utilities"].items():
+        for name, use in ((n, use) for n, use in row["utilities"].items() if use["value"]):
             taken.append([unit, name, use["carrier"], use["value"], use["unit"], use["counted"]])
     for name, total in data["utilities"].items():
-        if isinstance(total, dict) and "value" in total:
+        if isinstance(total, dict) and total.get("value"):
             taken.append(["", name, "", total["value"], total["unit"], ""])
     return {
         "streams": streams,

@@ -53,7 +53,7 @@ def stream_table(run: Any) -> StreamTable:
     streams = run.streams
     phases = {_("solid"): "solid_flow", _("liquid"): "liquid_flow", _("gas"): "gas_flow"}
     told = [summary(s) for s in streams.values()]
-    columns = [(label, flow, [float(getattr(s, name)) for s in told]) for label, name in phases.items()]
+    columns = [(label, flow, _flows(streams, name)) for label, name in phases.items()]
     columns.append(("T", degrees, [float(s.temperature) for s in told]))
     columns.append(("d50", length, [float(s.median_size) for s in told]))
     shared = Parameter("mass_flow", flow).display_unit(
@@ -67,6 +67,12 @@ def stream_table(run: Any) -> StreamTable:
         heads.append(f"{label} {unit}".strip())
         cells.append(texts)
     return StreamTable(tuple(heads), list(zip(streams, map(list, zip(*cells, strict=True)), strict=True)))
+
+
+def _flows(streams: Mapping[str, Any], phase: str) -> list[float]:
+    """Flow of a phase in each stream; what is lost in the rounding of the largest stream is none."""
+    least = ROUNDING * max(float(s.mass_flow) for s in streams.values())
+    return [x if x >= least else 0.0 for x in (float(getattr(s, phase)) for s in streams.values())]
 
 
 def _column(values: list[float], kind: Kind, unit: str = "") -> tuple[str, list[str]]:
@@ -115,7 +121,7 @@ def stream_sheet(run: Any) -> dict[str, Any]:
     phases = [(p, names) for p in PHASES if (names := getattr(mixture, f"{p}s" if p != "gas" else "gases"))]
     flow = KINDS["MassFlow"]
     flows = {"": {n: float(s.mass_flow) for n, s in streams.items()}}
-    flows |= {p: {n: float(getattr(t, f"{p}_flow")) for n, t in told.items()} for p, _names in phases}
+    flows |= {p: dict(zip(streams, _flows(streams, f"{p}_flow"), strict=True)) for p, _names in phases}
     unit = Parameter("mass_flow", flow).display_unit(
         [x for column in flows.values() for x in column.values()]
     )
@@ -166,6 +172,7 @@ def stream_sheet(run: Any) -> dict[str, Any]:
 
 PHASES = ("solid", "liquid", "gas")
 LEAST = 1e-12  # of the largest stream, below which one carries nothing
+ROUNDING = 1e-15  # of the largest stream
 
 
 def _share(stream: Any, phase: str, i: int, flow: float) -> str:

@@ -20,6 +20,8 @@ from granum.core.kinds import (
     MassFlux,
     MassPerArea,
     MoistureDryBasis,
+    Power,
+    PowerPerArea,
     Pressure,
     Ratio,
     SpecificEnergy,
@@ -30,14 +32,16 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.formulas.contact_drying import moisture_dry_basis_after
+from granum.drying.formulas.scrapers import shaft_power_scraper
 from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import safe_divide
+from granum.settling.kinds import LineLoad
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
-from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, heated
+from granum.streams.utilities import AREA, DRIVE, HEAT_APPROACH, HEATED, driven, heated
 
 
 class ContactDried(NamedTuple):
@@ -63,6 +67,7 @@ class DrumFigures(NamedTuple):
     mass_flow_steam: MassFlow
     steam_per_water: Ratio
     energy_per_water: SpecificEnergy
+    shaft_power: Power
 
 
 @equipment("drum_dryer", source="mujumdar2014, ch. 9; treybal1980, ch. 12", title="Drum (cylinder) dryer")
@@ -74,7 +79,11 @@ class DrumDryer(Unit):
     straight line to zero at equilibrium. The film covers ``wrapped_fraction`` of the turn; turning faster
     makes it thinner for a shorter time, so that the moisture reached hangs on area and steam alone. The
     product leaves between boiling and wall temperature, the closer to the wall the drier it is.
-    ``heat_loss_share`` is of the steam's heat.
+    ``heat_loss_share`` is of the steam's heat. The shaft drags its surface under the scraper, whose
+    ``blade_load`` and ``friction_coefficient`` are those of knives that lift a sheet (the latter 0 where a
+    web leaves by itself); ``drive_power_per_area`` is what rolls that feed, bearings and discharge take
+    besides, some third of the motors that makers install on such drums (from memory 1.2 to 2 kW/m²; our own
+    estimate).
     """
 
     diameter: Length
@@ -87,6 +96,9 @@ class DrumDryer(Unit):
     equilibrium_moisture: MoistureDryBasis = 0.0
     heat_loss_share: Fraction = 0.1
     temperature_limit: Temperature | None = None
+    blade_load: LineLoad = 2000.0
+    friction_coefficient: Ratio = 0.2
+    drive_power_per_area: PowerPerArea = 500.0
 
     limits: ClassVar[Limits] = {
         "capacity": Limit(
@@ -98,7 +110,7 @@ class DrumDryer(Unit):
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     }
 
-    utilities: ClassVar[Utilities] = HEATED | AREA
+    utilities: ClassVar[Utilities] = HEATED | AREA | DRIVE
 
     def inside(self, feed: Stream) -> dict[str, Any]:
         """What happens to the film on its way."""
@@ -207,6 +219,13 @@ class DrumDryer(Unit):
             mass_flow_steam=steam,
             steam_per_water=safe_divide(steam, water),
             energy_per_water=safe_divide(duty, water),
+            shaft_power=shaft_power_scraper.function(
+                self.diameter,
+                self.width,
+                self.rotation_speed,
+                self.blade_load,
+                self.friction_coefficient,
+            ),
         )
 
     def measured(
@@ -227,4 +246,7 @@ class DrumDryer(Unit):
         self, inside: dict[str, Any], outlets: ContactDried, figures: DrumFigures, feed: Stream
     ) -> dict[str, Any]:
         steam = outlets.heat_duty / (1.0 - self.heat_loss_share)
-        return heated(steam, figures.wall_temperature - HEAT_APPROACH) | {"area_installed": figures.area}
+        return heated(steam, figures.wall_temperature - HEAT_APPROACH) | {
+            "electric_power_drive": driven(figures.shaft_power) + self.drive_power_per_area * figures.area,
+            "area_installed": figures.area,
+        }

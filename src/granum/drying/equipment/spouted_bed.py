@@ -133,7 +133,7 @@ class SpoutedBedDryer(BedDryer):
             "chandnani1986, recalled",
         ),
         "grains": Limit("size of the grains", 1e-3, 1e-2, "m", "geldart1973; " + BOOK),
-        "vessel": Limit("diameter of each vessel", 0.07, 0.6, "m", "mathur1955; " + BOOK),
+        "vessel": Limit("diameter of each vessel", 0.07, 0.61, "m", "mathur1955; peterson1962"),
     }
 
     utilities: ClassVar[Utilities] = BedDryer.utilities | AREA

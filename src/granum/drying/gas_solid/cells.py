@@ -66,6 +66,11 @@ class Network(eqx.Module):
             self.outlet,
         )
 
+    def matrix(self) -> Any:
+        """What the flow of gas brings to each cell, by what is in all of them."""
+        own = self.from_before + self.from_after + self.inlet
+        return jnp.diag(-own) + jnp.diag(self.from_before[1:], -1) + jnp.diag(self.from_after[:-1], 1)
+
     @classmethod
     def mixed(cls, n: int) -> Network:
         """One gas in all cells."""
@@ -132,20 +137,30 @@ def largest_change(moisture: Any, *more: Any) -> Cells:
 
 
 def march(
-    rates: Callable[[Cells, Cells, Any], Rates], first: Cells, rows: Any, steps: Any, limit: Cells
+    rates: Callable[[Cells, Cells, Any], Rates],
+    first: Cells,
+    rows: Any,
+    steps: Any,
+    limit: Cells,
+    most: Any = 2000,
 ) -> tuple[Cells, Any]:
     """Steady states of cells of which each depends on the one before alone: ``rates(u, before, row)``
     vanishes, u having one cell.
 
     On its way there the gas, too, has something to hold, for ``steps`` of time: bare, it would run ahead of
-    grains so fine that they follow it.
+    grains so fine that they follow it. ``most`` is the number of steps that each may take.
     """
 
     def cell(carry: tuple[Any, Any], given: tuple[Any, Any]) -> tuple[tuple[Any, Any], Any]:
         (before, well), (row, step) = carry, given
         start = jax.tree.map(lambda leaf: leaf[None], before)
         found = solve_chain(
-            lambda u: rates(u, before, row), start, Cells(1.0, step), first_step=step, largest_change=limit
+            lambda u: rates(u, before, row),
+            start,
+            Cells(1.0, step),
+            first_step=step,
+            largest_change=limit,
+            max_steps=most,
         )
         state = jax.tree.map(lambda leaf: leaf[0], found.state)
         return (state, well & found.converged), state

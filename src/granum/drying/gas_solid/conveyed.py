@@ -4,8 +4,10 @@ cell.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 from jax import lax
 
@@ -30,6 +32,13 @@ AMBIENT = 298.15  # K, at which the liquid of a drop has its density
 # of the solver: where vapor of hot gas condenses on the cold drops above, much water goes round, and at the
 # usual 1e-12 the balance of what leaves had closed to 1.5e-9 only
 TOLERANCE = 1e-13
+TURNS = 40  # of solid and gas
+NEAR, ASTRAY = (
+    1e-5,
+    3.0,
+)  # of a change from one turn to the next: Newton's method may begin, or there is no use
+LESS_MIXED = (30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01)  # gas exchanged between neighbors over that through
+ROUGH, LONG, LONGEST = 1e-6, 300, 2000  # tolerance on the way there, steps on it and of the last attempt
 SLOWEST = 1e-3  # m/s, of a particle against its duct: below it would fall out, which a check reports
 
 
@@ -181,15 +190,79 @@ def convey(
         share, gas_guess = 1.0 / (1.0 + exchanged), states.shared
         mixed = share * gas_guess + (1.0 - share) * gas_guess[-1]
         guess = states._replace(shared=mixed[::-1] if against else mixed)
-        found = solve_chain(
-            lambda v: rates(v, fresh, start, network, lengths),
-            guess,
-            Cells(1.0, lengths / fastest),
-            first_step=0.1 * jnp.min(path.steps) / fastest,
-            largest_change=moving,
-            tolerance=TOLERANCE,
-        )
-        states, converged = found.state, found.converged
+
+        def in_gas(v: Cells, before: Cells, row: Any) -> Rates:
+            """A cell whose gas is given."""
+            length, known = row
+            found = cell(v._replace(shared=known[None]), before, length)
+            return Rates(found.lanes, 0.0 * found.parts, known[None] - v.shared)
+
+        def solids(given: Any, most: Any) -> Cells:
+            met, _well = march(in_gas, first, (lengths, given), 0.1 * path.steps / fastest, moving, most)
+            return met._replace(shared=given)
+
+        def gas_of(met: Cells) -> Any:
+            """The gas that takes what these solids give."""
+            found = rates(met, fresh, start, network, lengths)
+            at_rest = found.shared + jnp.sum(found.parts, axis=1)
+            return met.shared - jnp.linalg.solve(network.matrix(), at_rest)
+
+        def solve(flow: Any, guess: Cells, tolerance: Any, most: Any) -> tuple[Cells, Any]:
+            found = solve_chain(
+                lambda v: rates(v, fresh, start, network.dispersed(flow), lengths),
+                guess,
+                Cells(1.0, lengths / fastest),
+                first_step=0.1 * jnp.min(path.steps) / fastest,
+                largest_change=moving,
+                tolerance=tolerance,
+                max_steps=most,
+            )
+            return found.state, found.converged
+
+        states, converged = turns(solids, gas_of, solve, guess)
     core, _lack, _times = split(states, start, network, lengths)
     place = jnp.cumsum(path.steps) / jnp.sum(path.steps)
     return core.profile(states, converged)._replace(place=place), jnp.sum(core.solid)
+
+
+def turns(
+    solids: Callable[[Any, Any], Cells],
+    gas_of: Callable[[Cells], Any],
+    solve: Callable[..., tuple[Cells, Any]],
+    guess: Cells,
+) -> tuple[Cells, Any]:
+    """Solid and gas that meet from both ends: first by turns, the solid through a gas that is known and the
+    gas over a solid that is, then together by Newton's method. Where that fails, for water goes round
+    between a hot foot and a cold head, from a gas that is mixed and is so ever less.
+
+    Parameters
+    ----------
+    solids: the steady state of the solid in a gas, in so many steps a cell. gas_of: the gas for such a state.
+    solve: the steady state with so much gas exchanged between neighbors, from a guess, to a tolerance, in so
+        many steps. Work that is not needed takes no steps, so that a batch waits for nothing else.
+    """
+
+    def turn(carry: tuple[Cells, Any], _row: None) -> tuple[tuple[Cells, Any], None]:
+        before, change = carry
+        on = (change > NEAR) & (change < ASTRAY)
+        met = solids(before.shared, jnp.where(on, LONG, 0))
+        new = gas_of(met)
+        after = met._replace(shared=0.5 * (before.shared + new)), jnp.max(abs(new - before.shared))
+        return jax.tree.map(lambda a, b: jnp.where(on, a, b), after, (before, change)), None
+
+    (near, change), _none = lax.scan(turn, (guess, jnp.asarray(0.5 * ASTRAY)), None, TURNS)
+    first = jax.tree.map(lambda a, b: jnp.where(change <= NEAR, a, b), near, guess)
+
+    def stage(carry: tuple[Cells, Any], row: tuple[Any, ...]) -> tuple[tuple[Cells, Any], None]:
+        states, done = carry
+        flow, tolerance, most, last, anew = row
+        begin = jax.tree.map(lambda a, b: jnp.where(anew & ~done, a, b), guess, states)
+        found, well = solve(flow, begin, tolerance, jnp.where(done, 0, most))
+        kept = jax.tree.map(lambda a, b: jnp.where(done, a, b), states, found)
+        return (kept, done | (well & last)), None
+
+    flows = jnp.asarray([0.0, *LESS_MIXED, 0.0])
+    plain, number = flows == 0.0, jnp.arange(len(flows))
+    most = jnp.where(number == len(flows) - 1, LONGEST, LONG)
+    rows = flows, jnp.where(plain, TOLERANCE, ROUGH), most, plain, number == 1
+    return lax.scan(stage, (first, jnp.asarray(False)), rows)[0]

@@ -11,12 +11,11 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import RPM, STANDARD_ATMOSPHERE
-from granum.core.kinds import Fraction, Length, Permeability, Speed, TurningSpeed, Within
+from granum.core.kinds import Fraction, Length, Permeability, PowerPerArea, Speed, TurningSpeed, Within
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
-from granum.filtration.kinds import PowerPerArea
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities

@@ -18,6 +18,7 @@ from granum.core.kinds import (
     MassPerAreaOrZero,
     MassTransferCoefficient,
     MediumResistance,
+    PowerPerArea,
     PressureDrop,
     Ratio,
     Speed,
@@ -34,7 +35,7 @@ from granum.filtration.formulas.constant_pressure import (
     filtration_time_constant_pressure,
 )
 from granum.filtration.formulas.resistance import cake_resistance_power_law
-from granum.filtration.kinds import PowerPerArea, VolumePerArea
+from granum.filtration.kinds import VolumePerArea
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
