@@ -188,19 +188,21 @@ def compete(
         start, end, index = given
         T, mass = program(end), masses(state.crystals)
         rates, births = rivals.kinetics(state.ratios, program(start), mass)
-        found = state.ratios
-        moved: dict[int, tuple[Any, Any]] = {}
-        for _sweep in range(SWEEPS if solutes > 1 else 1):
+
+        def sweep(_number: Any, carry: tuple[Any, Any]) -> tuple[Any, Any]:
+            """Composition, and the growth path and births of each form, one solute after the other."""
+            found, moved = carry
             for j in range(solutes):
-                step = _Step(
-                    rivals, state.crystals, mass, rates, births, T, end - start, found, total[j], j
-                )
+                step = _Step(rivals, state.crystals, mass, rates, births, T, end - start, found, total[j], j)
                 c, weights = settled(step, state.ratios[j], total[j])
-                paths, born = step.after(c, weights)
                 found = found.at[j].set(c)
-                moved |= dict(zip(step.mine, zip(paths, born, strict=True), strict=True))
+                moved = moved.at[np.array(step.mine)].set(jnp.asarray(step.after(c, weights)).T)
+            return found, moved
+
+        begun = (state.ratios, jnp.zeros((2, 2)))
+        moved = lax.fori_loop(0, SWEEPS if solutes > 1 else 1, sweep, begun)[1]
         grown = tuple(
-            p.grown(*moved[i], 0.0, kept[i] + index) for i, p in enumerate(state.crystals)
+            p.grown(moved[i, 0], moved[i, 1], 0.0, kept[i] + index) for i, p in enumerate(state.crystals)
         )
         new = State((grown[0], grown[1]), total - drawn(masses((grown[0], grown[1]))))
         return new, row(new, T)
