@@ -116,6 +116,16 @@ from granum.crystallization.equipment.stirring import (
     Stirred as Stirred,
     Stirring as Stirring,
 )
+from granum.crystallization.equipment.sublimation import (
+    Desublimer as Desublimer,
+    DesublimerFigures as DesublimerFigures,
+    DesublimerOutlets as DesublimerOutlets,
+    Sublimed as Sublimed,
+    Sublimer as Sublimer,
+    SublimerFigures as SublimerFigures,
+    SublimerOutlets as SublimerOutlets,
+    Volatile as Volatile,
+)
 from granum.crystallization.equipment.suspension_melt import (
     SuspensionMeltCrystallizer as SuspensionMeltCrystallizer,
     SuspensionMeltFigures as SuspensionMeltFigures,
@@ -347,6 +357,11 @@ from granum.crystallization.formulas.solubility_laws import (
     PolynomialSolubility as PolynomialSolubility,
     SolubilityLaw as SolubilityLaw,
     VantHoffSolubility as VantHoffSolubility,
+)
+from granum.crystallization.formulas.sublimation import (
+    EntrainerBalance as EntrainerBalance,
+    entrainer_balance as entrainer_balance,
+    sublimation_pressure_clapeyron as sublimation_pressure_clapeyron,
 )
 from granum.crystallization.formulas.supersaturation import (
     absolute_supersaturation as absolute_supersaturation,
