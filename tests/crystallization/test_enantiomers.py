@@ -211,7 +211,9 @@ def test_the_unit_closes_on_each_species_and_agrees_with_the_batch() -> None:
     )
     values = unit.values
     assert values.enantiomer_fraction_end == pytest.approx(out.enantiomer_fraction_end, rel=1e-9)
-    assert values.crystal_flow_other / feed.liquid[0] == pytest.approx(float(out.crystals_other[-1]), rel=1e-9)
+    assert values.crystal_flow_other / feed.liquid[0] == pytest.approx(
+        float(out.crystals_other[-1]), rel=1e-9
+    )
     assert values.crop_time_pure == pytest.approx(float(out.crop_time_pure), rel=1e-9)
     assert values.heat_duty < 0.0
 

@@ -52,8 +52,8 @@ def test_heats_follow_from_the_slope(name: str, molar: float, spread: float) -> 
 
 
 def test_salicylic_acid_of_the_textbook() -> None:
-    """Richardson, Harker and Backhurst, example 15.9, recalled: 2000 kg/h of air at 423 K and 101.5 kPa take up
-    138 kg/h at 1.44 kPa; 0.26 kg/h leave the last condenser with 2.3 Pa at 85.6 kPa.
+    """Richardson, Harker and Backhurst, example 15.9, recalled: 2000 kg/h of air at 423 K and 101.5 kPa take
+    up 138 kg/h at 1.44 kPa; 0.26 kg/h leave the last condenser with 2.3 Pa at 85.6 kPa.
     """
     out = c.entrainer_balance(1440, 2.3, 101.5e3, 85.6e3, 0.138, 0.029)
     assert out.vapor_per_carrier_inlet * 2000 == pytest.approx(138, rel=0.015)

@@ -85,7 +85,9 @@ def two_salts_chart(
         add_on_triangle(drawing, x[here], y[here], both, mode="markers", marker=mark, showlegend=False)
         tied = _("tie lines, {where}").format(where=word)
         thin = line | {"width": 1, "dash": "dot"}
-        add_on_triangle(drawing, *_ties(found), tied, mode="lines", line=thin, showlegend=False, hoverinfo="skip")
+        add_on_triangle(
+            drawing, *_ties(found), tied, mode="lines", line=thin, showlegend=False, hoverinfo="skip"
+        )
     if one + other > 0.0:
         hot, cold = float(temperatures.max()), float(temperatures.min())
         path = crystallization_path(pair, one, other, hot, cold)

@@ -69,7 +69,10 @@ def mixture_of(
         _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
     )
     made = [
-        _crystal(name, systems) or _taken_up(name, dissolved) or _sublimed(known, name, gases) or _inert(known, name)
+        _crystal(name, systems)
+        or _taken_up(name, dissolved)
+        or _sublimed(known, name, gases)
+        or _inert(known, name)
         for name in solids
     ]
     formulas = {name: system.formula for name, system in systems.items()}

@@ -171,8 +171,8 @@ class PreferentialCrystallizer(Stirred, Unit):
     def inside(self, feed: Stream) -> Resolved:
         found = self._roles(feed.mixture)
         crystal = crystal_of(feed.mixture, found[0], feed.temperature, self.volume_shape_factor)
-        W = feed.liquid[found[0].solvent]
-        W = jnp.where(W > 0.0, W, TRICKLE)
+        given = feed.liquid[found[0].solvent]
+        W = jnp.where(given > 0.0, given, TRICKLE)
         held = jnp.asarray(self.seed_mass_per_solvent, dtype=float)
         edges = jnp.asarray(feed.mixture.edges)
         low, high = edges[:-1], edges[1:]
@@ -180,7 +180,8 @@ class PreferentialCrystallizer(Stirred, Unit):
 
         def seeding(role: Roles, added: Any) -> Seeds:
             cut = narrow_seeds(self.seed_size, self.seed_width, added, crystal.mass_per_cube)
-            fed = feed_of(feed, role).crystals / (W * cubes)
+            # without a liquor they stay what they are
+            fed = jnp.where(given > 0.0, feed_of(feed, role).crystals / (W * cubes), 0.0)
             return Seeds(jnp.append(cut.low, low), jnp.append(cut.high, high), jnp.append(cut.number, fed))
 
         vessel = Resolution(
@@ -197,7 +198,7 @@ class PreferentialCrystallizer(Stirred, Unit):
         end, course = vessel.run(
             (seeding(found[0], held), seeding(found[1], 0.0 * held)),
             self.temperature_program,
-            jnp.stack([feed.liquid[role.solute] / W for role in found]),
+            jnp.stack([jnp.where(given > 0.0, feed.liquid[role.solute] / W, 0.0) for role in found]),
             times,
         )
         self.solubility(course.temperature)  # once more where its flags are heard
@@ -208,6 +209,7 @@ class PreferentialCrystallizer(Stirred, Unit):
         for role, packets, left in zip(inside.found, inside.end.crystals, inside.left, strict=True):
             classes = packets.in_classes(feed.mixture.edges)
             classes = classes * safe_divide(left * inside.solvent, jnp.sum(classes), 0.0)
+            classes = jnp.where(inside.solvent > TRICKLE, classes, feed_of(feed, role).crystals)
             solid = with_crystals(feed.replace(solid=solid), role, classes)
             gained = jnp.sum(feed.solid[role.solid]) - jnp.sum(solid[role.solid])
             liquid = liquid.at[role.solute].add(gained)

@@ -101,8 +101,8 @@ class SublimerOutlets(NamedTuple):
     equation=r"\dot n_i = \min\left(\dot n_{i,0},\ \varphi\,\frac{p_i(T)}{P}\,\sum_j \dot n_j\right)",
 )
 class Sublimer(Unit):
-    """Solids go to vapor at a temperature, into a carrier gas that they saturate or, where their vapor has the
-    pressure of the vessel, without one (vacuum).
+    """Solids go to vapor at a temperature, into a carrier gas that they saturate or, where their vapor has
+    the pressure of the vessel, without one (vacuum).
 
     Every solid of the mixture whose vapor is among its gases sublimes as if it were alone: solids that do not
     mix with each other. What is left keeps its sizes; liquid stays with it, and vapor is never caught here.

@@ -30,6 +30,7 @@ _TYPICAL = {
     "melting_temperature_racemate": (385.0, 415.0),
     "temperature": (380.0, 400.0),
 }
+_SYMBOLS = {"enthalpy_of_fusion": r"\Delta H_A", "melting_temperature": "T_A"}
 NO_CROP = "The seeded enantiomer must end less supersaturated than the other may become."
 
 
@@ -115,11 +116,12 @@ def freezing_temperature_racemate(
     source="jacques1981, ch. 2; prigogine1954; schroder1893",
     title="Eutectic of an enantiomer and its racemic compound",
     equation=(
-        r"\frac{\Delta H_A}{R}\left(\frac{1}{T_A} - \frac1T\right) = \ln x,\quad "
-        r"\frac{2\Delta H_R}{R}\left(\frac{1}{T_R} - \frac1T\right) = \ln[4x(1-x)]"
+        r"\frac{1}{T_E} = \frac{1}{T_A} - \frac{R\,\ln x_E}{\Delta H_A} = "
+        r"\frac{1}{T_R} - \frac{R\,\ln[4x_E(1-x_E)]}{2\,\Delta H_R}"
     ),
     output="eutectic",
     typical=_TYPICAL,
+    symbols=_SYMBOLS,
 )
 def eutectic_racemate(
     enthalpy_of_fusion: PositiveMolarEnergy,
@@ -162,6 +164,7 @@ def eutectic_racemate(
     ),
     output="gibbs_energy_racemate",
     typical=_TYPICAL,
+    symbols=_SYMBOLS,
 )
 def gibbs_energy_racemate(
     enthalpy_of_fusion: PositiveMolarEnergy,
@@ -188,9 +191,7 @@ def gibbs_energy_racemate(
 @formula(
     source="jacques1981, ch. 4; collet1980",
     title="Crop of resolution with alternating seeds",
-    equation=(
-        r"m = 2\,(\beta_2 - \beta_1)\,C^*,\quad e = \frac{m}{2},\quad C_1 = \beta_2 C^* + e"
-    ),
+    equation=(r"m = 2\,(\beta_2 - \beta_1)\,C^*,\quad e = \frac{m}{2},\quad C_1 = \beta_2 C^* + e"),
     output="alternating_crop",
     typical={
         "solubility_per_solvent": (0.05, 0.2),

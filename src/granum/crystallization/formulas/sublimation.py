@@ -21,7 +21,9 @@ from granum.core.kinds import (
 from granum.crystallization.kinds import GasPressure, PositiveMolarEnergy, Saturated
 from granum.numerics import find_root
 
-BOILS = "The vapor has the pressure of the gas and needs no carrier: give a colder vaporizer or more pressure."
+BOILS = (
+    "The vapor has the pressure of the gas and needs no carrier: give a colder vaporizer or more pressure."
+)
 NOTHING_CAUGHT = "The condenser leaves as much vapor in the gas as the vaporizer gives."
 TRACE = 1e-9  # of all that may be in the gas: no less of it is looked for
 
@@ -38,7 +40,7 @@ class EntrainerBalance(NamedTuple):
 @formula(
     source="mullin2001, ch. 8; coulson2002, ch. 15",
     title="Pressure of the vapor of a solid (Clausius and Clapeyron)",
-    equation=r"p = p_0 \exp\left[\frac{\Delta H_s}{R}\left(\frac{1}{T_0} - \frac1T\right)\right]",
+    equation=r"p_s = p_0 \exp\left[\frac{\Delta H_s}{R}\left(\frac{1}{T_0} - \frac1T\right)\right]",
     output="sublimation_pressure",
     typical={
         "temperature": (290.0, 350.0),
@@ -69,8 +71,9 @@ def sublimation_pressure_clapeyron(
     source="mullin2001, ch. 8; coulson2002, ch. 15",
     title="Entrainer sublimation: carrier and yield",
     equation=(
-        r"Y = \frac{M}{M_g}\,\frac{\varphi\,p}{P - \varphi\,p},\quad R = 1 - \frac{Y_2}{Y_1},\quad "
-        r"\frac{\dot m_g}{\dot m_P} = \frac{1}{Y_1 - Y_2}"
+        r"Y_1 = \frac{M}{M_g}\,\frac{\varphi\,p_1}{P_1 - \varphi\,p_1},\quad "
+        r"Y_2 = \frac{M}{M_g}\,\frac{p_2}{P_2 - p_2},\quad R = 1 - \frac{Y_2}{Y_1},\quad "
+        r"\frac{m_g}{m_P} = \frac{1}{Y_1 - Y_2}"
     ),
     output="entrainer_balance",
     typical={
@@ -81,6 +84,7 @@ def sublimation_pressure_clapeyron(
         "molar_mass": (0.12, 0.18),
         "carrier_molar_mass": (0.028, 0.044),
     },
+    symbols={"pressure_inlet": "P_1", "pressure_outlet": "P_2"},
 )
 def entrainer_balance(
     sublimation_pressure_inlet: Pressure,

@@ -4,7 +4,7 @@ solution.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
@@ -132,7 +132,8 @@ def polymorph_batch(
     times = jnp.linspace(0.0, duration, steps + 1)
     rivals = Rivals(forms, liquid_density, (0.0, cross_nucleation))
     fine, coarse = (
-        compete(rivals, seeds, temperature_program, [solute_per_solvent], t)[1] for t in (times, halved(times))
+        compete(rivals, seeds, temperature_program, [solute_per_solvent], t)[1]
+        for t in (times, halved(times))
     )
     crystals = np.asarray(fine.masses)
     every = np.maximum(crystals.sum(axis=1), 1e-300)
