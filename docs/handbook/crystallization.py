@@ -253,6 +253,49 @@ washed = {
 }
 frozen_layers = float(layers.layer_flow / layers.product_mass_flow)
 
+# ---- mirror images
+mandelic = c.eutectic_racemate("24.5 kJ/mol", 404.75, "25.6 kJ/mol", 391.95)
+mandelic_stability = c.gibbs_energy_racemate("24.5 kJ/mol", 404.75, "25.6 kJ/mol", 391.95, temperature=391.95)
+THREONINE = LibrarySolubility("L-threonine")
+racemic_liquor = float(THREONINE(313.15))
+mirrored = {
+    (seed, share): c.preferential_crystallization(
+        racemic_liquor,
+        racemic_liquor,
+        THREONINE,
+        {"law": "power_law_growth", "growth_coefficient": "0.3 um/s", "growth_order": 1.0},
+        {
+            "law": "power_cooling",
+            "temperature_start": "33 degC",
+            "temperature_end": "33 degC",
+            "duration": "1 hour",
+        },
+        "6 hour",
+        1461,
+        nucleation={
+            "law": "secondary_nucleation",
+            "nucleation_coefficient": "1e7 1/(m^3*s)",
+            "nucleation_order": 2.0,
+        },
+        counter_nucleation=share,
+        seed_mass_per_solvent=f"{seed} g/kg",
+        seed_size="250 um",
+    )
+    for seed, share in ((1, 0.01), (3, 0.01), (10, 0.01), (3, 0.1))
+}
+in_turn = c.crop_alternating_seeds(float(THREONINE(306.15)), racemic_liquor / float(THREONINE(306.15)), 1.02)
+
+# ---- vapor
+NAPHTHALENE, NITROGEN = session().solid("naphthalene"), session().fluid("nitrogen")
+naphthalene_at = {t: float(NAPHTHALENE.sublimation_pressure(f"{t} degC")) for t in (20, 40, 75)}
+heat_naphthalene = float(NAPHTHALENE.heat_of_sublimation("25 degC"))
+carried = {
+    t: c.entrainer_balance(
+        naphthalene_at[75], naphthalene_at[t], "1 atm", "1 atm", NAPHTHALENE.molar_mass, NITROGEN.molar_mass
+    )
+    for t in (20, 40)
+}
+
 # ---- stirrer
 impeller_wide = across / 3
 stirred_speed = tank.rotation_speed_zwietering(

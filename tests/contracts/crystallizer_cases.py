@@ -16,19 +16,28 @@ from granum.crystallization.equipment.antisolvent import (
     AntisolventCrystallizer,
 )
 from granum.crystallization.equipment.controlled import NucleationControlledCrystallizer
+from granum.crystallization.equipment.dissolver import Dissolver
 from granum.crystallization.equipment.hydroxides import HydroxidePrecipitator
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
+from granum.crystallization.equipment.preferential import PreferentialCrystallizer
+from granum.crystallization.equipment.sublimation import Desublimer, Sublimer
 from granum.crystallization.equipment.suspension_melt import SuspensionMeltCrystallizer
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
 from granum.crystallization.equipment.uptake import ImpurityUptake
 from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
-from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
+from granum.crystallization.formulas.programs import PowerCooling
+from granum.crystallization.formulas.solubility_laws import (
+    AntisolventSolubility,
+    LibrarySolubility,
+    PolynomialSolubility,
+)
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
+THREONINE = ("L-threonine", "D-threonine")
 IMPURE = ("water", "potassium nitrate", "sodium chloride")
 
 
@@ -108,12 +117,41 @@ def _chlorides(mixture: Mixture, x: Any) -> dict[str, Stream]:
     }
 
 
+def _mirrored(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with up to 0.25 kg/kg of each enantiomer, crystals in every second one."""
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    seed = 0.01 * x[3] * (x[3] > 0.5) * shares(x[4], x[5], classes)
+    other = 0.01 * x[7] * (x[7] > 0.5) * shares(x[5], x[4], classes)
+    return {
+        "feed": empty(mixture, 290.0 + 40.0 * x[2]).replace(
+            solid=water * jnp.stack([seed, other]),
+            liquid=water * jnp.stack([1.0, 0.25 * x[1], 0.25 * x[6]]),
+        )
+    }
+
+
+def _subliming(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.01 to 1 kg/s of nitrogen, or none, with vapor, crystals and sand."""
+    nitrogen, classes = 10.0 ** (-2.0 + 2.0 * x[0]), len(mixture.sizes)
+    crystals = jnp.stack([0.2 * x[1] * shares(x[4], x[5], classes), 0.1 * x[6] * shares(x[5], x[4], classes)])
+    return {
+        "feed": empty(mixture, 285.0 + 60.0 * x[2]).replace(
+            solid=nitrogen * crystals,
+            gas=nitrogen * jnp.stack([1.0 * (x[3] > 0.1), 0.05 * x[7]]),
+        )
+    }
+
+
 def mixed(classes: int) -> dict[str, Case]:
     plain = crystallizers(classes)
     nitrate = plain["msmpr"].mixture
 
     masses = zip(nitrate.liquids, (0.018015, 0.1011, 0.046068), strict=True)
     molten = replace(nitrate, liquids=tuple(replace(s, molar_mass=m) for s, m in masses))
+
+    edges = np.geomspace(5e-6, 4e-3, classes + 1)
+    mirrored = mixture_of(["water", *THREONINE], THREONINE, ["water"], edges)
+    subliming = mixture_of([], ["naphthalene", "quartz"], ["nitrogen", "naphthalene"], edges)
 
     def dissolving(name: str) -> Case:
         """A batch or tube whose crystals dissolve in an undersaturated solution."""
@@ -210,6 +248,39 @@ def mixed(classes: int) -> dict[str, Case]:
                 solvent="water",
                 second_solvent="ethanol",
             ),
+        ),
+        "enantiomers": Case(
+            mirrored,
+            _mirrored,
+            lambda f, u: PreferentialCrystallizer(
+                PowerCooling(330.0, 285.0 + 40.0 * u[0], 1800.0),
+                solubility=LibrarySolubility("L-threonine"),
+                growth=PowerLawGrowth(10.0 ** (-8.0 + 2.0 * u[1]), 1.0 + u[2]),
+                nucleation=PowerLawNucleation(10.0 ** (4.0 + 4.0 * u[3]), 1.0 + u[4]),
+                duration=7200.0,
+                seed_mass_per_solvent=0.01 * u[5],
+                counter_nucleation=u[2],
+                racemate_solubility_ratio=1.4 + u[4],
+            ),
+        ),
+        "dissolver": Case(
+            mirrored,
+            _mirrored,
+            lambda f, u: Dissolver(
+                285.0 + 45.0 * u[0],
+                f["feed"].slurry_volume_flow * 10.0 ** (2.5 + 1.5 * u[1]),
+                solubility=LibrarySolubility("L-threonine"),
+            ),
+        ),
+        "sublimer": Case(
+            subliming,
+            _subliming,
+            lambda f, u: Sublimer(300.0 + 50.0 * u[0], 10.0 ** (3.0 + 2.3 * u[1]), 0.2 + 0.8 * u[2]),
+        ),
+        "desublimer": Case(
+            subliming,
+            _subliming,
+            lambda f, u: Desublimer(275.0 + 40.0 * u[0], 10.0 ** (3.0 + 2.3 * u[1]), crystal_size=1e-4),
         ),
         "layers": Case(
             nitrate,

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from tests.contracts.unit_search import Case, rows, shares, tried, wrong
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.crystallization.equipment.needles import NeedleBatchCrystallizer, NeedleCrystallizer
@@ -248,3 +249,18 @@ def test_a_line_keeps_the_axis_that_a_unit_knows():
     feed = slender(replace(MIXTURE, axes=MIXTURE.axes[:1]), np.full(8, 0.5))
     line = Flowsheet({"unit": CASES["continuous"](feed, np.full(6, 0.5))}, feed, {"feed": ("", "unit.feed")})
     assert gather_axes(line).line is line
+
+
+def test_needles_keep_their_shape_in_a_line() -> None:
+    """Filter and dryer lose mass of every shape alike; what is dry has gained what its liquor held."""
+    run = gr.read(EXAMPLES / "needles" / "line.toml").solve()
+    assert run.audit["mass_closure"] < 1e-12
+    assert run.audit["energy_closure"] < 1e-12
+    assert not [k.name for unit in run.units.values() for k in unit.checks if not k.ok]
+    made, dried = (np.asarray(run.streams[name].solid)[0] for name in ("magma", "dry_needles"))
+    assert (dried.sum(axis=0) / dried.sum()) == pytest.approx(made.sum(axis=0) / made.sum(), rel=1e-6)
+    # at the highest supersaturation length grows 2.7 times as fast as width: seeds of three grow stouter
+    values = run.units["crystallizer"].values
+    fastest = 100.75 / 12.21 * float(values.relative_supersaturation_maximum) ** (1.74 - 1.48)
+    assert 2.0 < float(values.aspect_ratio) < fastest < 3.0
+    assert float(run.streams["dry_needles"].liquid_flow) < 1e-3 * dried.sum()

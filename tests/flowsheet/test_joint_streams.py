@@ -267,6 +267,11 @@ LIQUOR = {
         "heat_transfer_coefficient": 800.0,
         "seed_mass_per_solvent": 0.01,
     },
+    "crystallization.dissolver": {
+        "temperature": "60 degC",
+        "volume": 2.0,
+        "solubility": GROWTH["solubility"],
+    },
     "crystallization.msmpr": GROWTH | {"temperature": "30 degC", "volume": 2.0},
     "crystallization.needle_batch_crystallizer": GROWTH
     | {
@@ -362,7 +367,10 @@ ELSEWHERE = {
     "crystallization.antisolvent_crystallizer",
     "crystallization.hydroxide_precipitator",
     "crystallization.impurity_uptake",  # needs species in crystals: test_uptake
+    "crystallization.desublimer",  # need a solid among the gases: test_sublimation
     "crystallization.precipitator",
+    "crystallization.preferential_crystallizer",  # needs two enantiomers: test_enantiomers
+    "crystallization.sublimer",
     "crystallization.two_salt_crystallizer",
     "drying.burner",  # needs a fuel among the gases: test_dryer_closed
     "dust.extraction_hood",

@@ -6,6 +6,10 @@ from granum.crystallization.charts import (
     size_distribution_chart as size_distribution_chart,
     solubility_chart as solubility_chart,
 )
+from granum.crystallization.charts_enantiomers import (
+    enantiomers_chart as enantiomers_chart,
+    resolution_chart as resolution_chart,
+)
 from granum.crystallization.charts_ionizable import (
     ph_solubility_chart as ph_solubility_chart,
 )
@@ -54,6 +58,10 @@ from granum.crystallization.equipment.controlled import (
     NucleationControlledCrystallizer as NucleationControlledCrystallizer,
     NucleationControlledFigures as NucleationControlledFigures,
 )
+from granum.crystallization.equipment.dissolver import (
+    Dissolver as Dissolver,
+    DissolverFigures as DissolverFigures,
+)
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
 )
@@ -96,12 +104,27 @@ from granum.crystallization.equipment.precipitator import (
     PrecipitatorFigures as PrecipitatorFigures,
     Reacted as Reacted,
 )
+from granum.crystallization.equipment.preferential import (
+    PreferentialCrystallizer as PreferentialCrystallizer,
+    ResolutionFigures as ResolutionFigures,
+    Resolved as Resolved,
+)
 from granum.crystallization.equipment.roles import (
     Roles as Roles,
 )
 from granum.crystallization.equipment.stirring import (
     Stirred as Stirred,
     Stirring as Stirring,
+)
+from granum.crystallization.equipment.sublimation import (
+    Desublimer as Desublimer,
+    DesublimerFigures as DesublimerFigures,
+    DesublimerOutlets as DesublimerOutlets,
+    Sublimed as Sublimed,
+    Sublimer as Sublimer,
+    SublimerFigures as SublimerFigures,
+    SublimerOutlets as SublimerOutlets,
+    Volatile as Volatile,
 )
 from granum.crystallization.equipment.suspension_melt import (
     SuspensionMeltCrystallizer as SuspensionMeltCrystallizer,
@@ -185,6 +208,15 @@ from granum.crystallization.formulas.driving_forces import (
 from granum.crystallization.formulas.drowning_out import (
     antisolvent_fraction_best as antisolvent_fraction_best,
     yield_fraction_antisolvent as yield_fraction_antisolvent,
+)
+from granum.crystallization.formulas.enantiomers import (
+    AlternatingCrop as AlternatingCrop,
+    EutecticPoint as EutecticPoint,
+    crop_alternating_seeds as crop_alternating_seeds,
+    eutectic_racemate as eutectic_racemate,
+    freezing_temperature_racemate as freezing_temperature_racemate,
+    gibbs_energy_racemate as gibbs_energy_racemate,
+    solubility_per_solvent_enantiomer as solubility_per_solvent_enantiomer,
 )
 from granum.crystallization.formulas.encrustation import (
     temperature_difference_encrustation as temperature_difference_encrustation,
@@ -326,6 +358,11 @@ from granum.crystallization.formulas.solubility_laws import (
     SolubilityLaw as SolubilityLaw,
     VantHoffSolubility as VantHoffSolubility,
 )
+from granum.crystallization.formulas.sublimation import (
+    EntrainerBalance as EntrainerBalance,
+    entrainer_balance as entrainer_balance,
+    sublimation_pressure_clapeyron as sublimation_pressure_clapeyron,
+)
 from granum.crystallization.formulas.supersaturation import (
     absolute_supersaturation as absolute_supersaturation,
     driving_force_thermodynamic as driving_force_thermodynamic,
@@ -414,6 +451,12 @@ from granum.crystallization.population.packets import (
     ShiftedMoments as ShiftedMoments,
     SizeMap as SizeMap,
 )
+from granum.crystallization.population.rivals import (
+    Form as Form,
+    Rivals as Rivals,
+    Row as Row,
+    State as State,
+)
 from granum.crystallization.recipes import (
     CoolingRecipe as CoolingRecipe,
     Processes as Processes,
@@ -456,6 +499,11 @@ from granum.crystallization.vessels.dynamic import (
     Surviving as Surviving,
     msmpr_over_time as msmpr_over_time,
 )
+from granum.crystallization.vessels.enantiomers import (
+    Resolution as Resolution,
+    ResolutionCourse as ResolutionCourse,
+    preferential_crystallization as preferential_crystallization,
+)
 from granum.crystallization.vessels.held import (
     controlled_batch as controlled_batch,
     nucleation_controlled_batch as nucleation_controlled_batch,
@@ -479,7 +527,6 @@ from granum.crystallization.vessels.needles import (
     needle_batch as needle_batch,
 )
 from granum.crystallization.vessels.polymorphs import (
-    Form as Form,
     PolymorphCourse as PolymorphCourse,
     polymorph_batch as polymorph_batch,
 )

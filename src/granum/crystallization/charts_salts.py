@@ -8,12 +8,12 @@ import numpy as np
 import plotly.graph_objects as go
 
 from granum.core import chart
-from granum.core.charts import GRID, HEAT, LINES, OUT, template
-from granum.core.constants import ZERO_CELSIUS
+from granum.core.charts import HEAT, LINES, OUT
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import MassFraction, Series, Temperature
 from granum.core.units import format_number
+from granum.crystallization.charts_triangle import add_on_triangle, celsius, lay_out_triangle
 from granum.crystallization.vessels.common_ion import Isotherm, crystallization_path, isotherm
 from granum.materials.common_ion import COLDEST, HOTTEST, common_ion
 
@@ -66,7 +66,7 @@ def two_salts_chart(
         if not COLDEST <= T <= HOTTEST:
             raise InputError(
                 _("Both salts are known from {low} to {high}, not at {where}.").format(
-                    low=_celsius(COLDEST), high=_celsius(HOTTEST), where=_celsius(T)
+                    low=celsius(COLDEST), high=celsius(HOTTEST), where=celsius(T)
                 ),
                 name="isotherm_temperatures",
             )
@@ -76,42 +76,30 @@ def two_salts_chart(
     for T, color in zip(temperatures, LINES * 10, strict=False):
         found = isotherm(pair, float(T))
         x, y = np.asarray(found.first), np.asarray(found.second)
-        word = _celsius(T)
+        word = celsius(T)
         line = {"color": color, "width": 2}
-        _add(drawing, x, y, word, line=line, mode="lines")
+        add_on_triangle(drawing, x, y, word, line=line, mode="lines")
         here = slice(found.corner, found.corner + 1)
         both = _("both saturated, {where}").format(where=word)
         mark = {"color": color, "size": 9, "line": {"color": OUT, "width": 1}}
-        _add(drawing, x[here], y[here], both, mode="markers", marker=mark, showlegend=False)
+        add_on_triangle(drawing, x[here], y[here], both, mode="markers", marker=mark, showlegend=False)
         tied = _("tie lines, {where}").format(where=word)
         thin = line | {"width": 1, "dash": "dot"}
-        _add(drawing, *_ties(found), tied, mode="lines", line=thin, showlegend=False, hoverinfo="skip")
+        add_on_triangle(
+            drawing, *_ties(found), tied, mode="lines", line=thin, showlegend=False, hoverinfo="skip"
+        )
     if one + other > 0.0:
         hot, cold = float(temperatures.max()), float(temperatures.min())
         path = crystallization_path(pair, one, other, hot, cold)
-        ways = {_("boiled at {where}").format(where=_celsius(hot)): (slice(0, path.boiled + 1), "solid")}
+        ways = {_("boiled at {where}").format(where=celsius(hot)): (slice(0, path.boiled + 1), "solid")}
         if cold < hot:
-            ways[_("cooled to {where}").format(where=_celsius(cold))] = (slice(path.boiled, None), "dash")
+            ways[_("cooled to {where}").format(where=celsius(cold))] = (slice(path.boiled, None), "dash")
         for word, (part, dash) in ways.items():
             line = {"color": HEAT, "width": 3, "dash": dash}
-            _add(drawing, path.first[part], path.second[part], word, mode="lines", line=line)
-    axis = {"gridcolor": GRID, "ticks": "outside", "tickfont": {"size": 11}}
-    drawing.update_layout(
-        template=template(),
-        height=520,
-        title=_("Two salts in water, mass percent"),
-        ternary={
-            "sum": 100,
-            "aaxis": axis | {"title": _("water"), "min": 50},
-            "baxis": axis | {"title": names[0]},
-            "caxis": axis | {"title": names[1]},
-        },
-    )
+            add_on_triangle(drawing, path.first[part], path.second[part], word, mode="lines", line=line)
+    corners = (_("water"), names[0], names[1])
+    lay_out_triangle(drawing, _("Two salts in water, mass percent"), corners, 50.0)
     return drawing
-
-
-def _celsius(temperature: float) -> str:
-    return f"{temperature - ZERO_CELSIUS:.0f} °C"
 
 
 def _ties(found: Isotherm) -> tuple[np.ndarray, np.ndarray]:
@@ -122,20 +110,3 @@ def _ties(found: Isotherm) -> tuple[np.ndarray, np.ndarray]:
     x = [(found.first[i], corner[0], np.nan) for i, corner in ends]
     y = [(found.second[i], corner[1], np.nan) for i, corner in ends]
     return np.ravel(x), np.ravel(y)
-
-
-def _add(drawing: go.Figure, first: np.ndarray, second: np.ndarray, name: str, **look: Any) -> None:
-    """One trace of mass fractions on the triangle."""
-    drawing.add_trace(
-        go.Scatterternary(
-            {
-                "a": 100.0 * (1.0 - first - second),
-                "b": 100.0 * first,
-                "c": 100.0 * second,
-                "name": name,
-                "showlegend": True,
-                "hovertemplate": "%{b:.1f} + %{c:.1f} + %{a:.1f} %<extra>%{fullData.name}</extra>",
-            }
-            | look
-        )
-    )

@@ -13,6 +13,7 @@ from granum.core.kinds import (
     MolarEnergy,
     NumberDensity,
     PositiveNumber,
+    Pressure,
     Volume,
     Within,
 )
@@ -81,6 +82,10 @@ AdsorptionCoefficient = Annotated[
     Any, Kind("Langmuir coefficient", "m^3/mol", lower=0.0, display=("L/mol", "m^3/mol"))
 ]
 InclusionShare = Annotated[Fraction, Within(0.0, 0.5)]  # of a crystal's volume
+# both enantiomers dissolved over one alone, at saturation
+RacemateSolubilityRatio = Annotated[PositiveNumber, Within(1.0, 4.0)]
+GasPressure = Annotated[Pressure, Within(1e-3)]  # absolute; no gas has none
+Saturated = Annotated[Fraction, Within(1e-3, 1.0)]  # share of saturation that a gas reaches
 CountBound = Annotated[NumberDensity, Within(1.0)]
 ReadingDeviation = Annotated[Fraction, Within(0.0, 0.2)]
 Solubility = Annotated[Any, Law("solubility_law")]

@@ -49,6 +49,7 @@ _KIND_OF = {
     "liquid_conductivity": "ThermalConductivity",
     "surface_tension": "SurfaceTension",
     "vapor_pressure": "Pressure",
+    "sublimation_pressure": "Pressure",
     "heat_of_vaporization": "SpecificEnergy",
     "vapor_heat_capacity": "HeatCapacity",
     "vapor_viscosity": "DynamicViscosity",
@@ -65,7 +66,7 @@ PLAUSIBLE = {
 _BY_AMOUNT = {"kg/m^3": ("mol/m^3", 1), "J/kg": ("J/mol", -1), "J/(kg*K)": ("J/(mol*K)", -1)}
 """The unit of a property given per amount of substance, and the power of the molar mass that it lacks."""
 _FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_fields)
-_SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
+_SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity", "sublimation_pressure")
 
 
 @cache

@@ -121,6 +121,7 @@ class SolidEntry(_Named):
     density: PropertyEntry | None = None
     heat_capacity: PropertyEntry | None = None
     conductivity: PropertyEntry | None = None
+    sublimation_pressure: PropertyEntry | None = None
 
 
 class BranchEntry(_Strict):

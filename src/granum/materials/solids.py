@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import equinox as eqx
+import jax
+import jax.numpy as jnp
 
-from granum.core.constants import ZERO_CELSIUS
+from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.i18n import _, current_language
 from granum.materials.correlation import Correlation, Missing, as_temperature
 from granum.numerics import gauss_legendre
@@ -15,7 +17,8 @@ Property = Correlation | Missing
 
 
 class Solid(eqx.Module):
-    """A solid. ``density``, ``heat_capacity`` and ``conductivity`` are functions of temperature.
+    """A solid. ``density``, ``heat_capacity``, ``conductivity`` and ``sublimation_pressure`` are functions of
+    temperature.
 
     Parameters
     ----------
@@ -35,6 +38,7 @@ class Solid(eqx.Module):
     density: Property
     heat_capacity: Property
     conductivity: Property
+    sublimation_pressure: Property
     dust: str = eqx.field(static=True, default="")
 
     @property
@@ -47,6 +51,18 @@ class Solid(eqx.Module):
         T = as_temperature(temperature)
         self.heat_capacity.check_range(T)
         return gauss_legendre(self.heat_capacity.value, ZERO_CELSIUS, T, order=8)
+
+    @property
+    def sublimes(self) -> bool:
+        """Whether the pressure of its vapor is known."""
+        return isinstance(self.sublimation_pressure, Correlation)
+
+    def heat_of_sublimation(self, temperature: Any) -> Any:
+        """By Clausius and Clapeyron from the slope of the pressure of its vapor, J/kg."""
+        T = jnp.asarray(as_temperature(temperature), dtype=float)
+        law = self.sublimation_pressure
+        _value, slope = jax.jvp(lambda x: jnp.log(law.value(x)), (T,), (jnp.ones_like(T),))
+        return GAS_CONSTANT * T**2 * slope / self.molar_mass
 
     def __repr__(self) -> str:
         return _("solid {name} ({formula})").format(name=self.label, formula=self.formula)

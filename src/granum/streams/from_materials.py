@@ -4,7 +4,8 @@ A liquid is a fluid of the library or a solute dissolved in one of them, in the 
 solid is a solid of the library, a crystal of one of those solutes when it is one of its branches, or, as
 ``NAME in crystals``, what crystals have taken up of a liquid; a gas is a fluid of the library. Enthalpies are
 zero for the liquid solvent, dissolved solutes and permanent gases at 0 °C, so that vapor carries its heat of
-vaporization and a crystal lies lower by its heat of crystallization.
+vaporization, and a crystal lies lower by its heat of crystallization, or by that of sublimation where its
+vapor is among the gases.
 """
 
 from __future__ import annotations
@@ -25,12 +26,14 @@ from granum.core.i18n import _
 from granum.materials.correlation import Correlation
 from granum.materials.fluids import Fluid
 from granum.materials.library import Library, session
+from granum.materials.solids import Solid
 from granum.materials.solutes import SoluteSystem
 from granum.streams.exchange import by_ions
 from granum.streams.mixture import AIR, STEAM, Mixture, Species, carrier_of
 
 COLDEST, HOTTEST = 263.15, 423.15  # K, over which condensed-phase properties are taken as polynomials
 HOTTEST_GAS = 873.15
+ROOM = 298.15  # K, at which heats of sublimation are taken
 CONDENSED = (COLDEST, HOTTEST)
 
 
@@ -65,7 +68,13 @@ def mixture_of(
     dissolved = tuple(
         _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
     )
-    made = [_crystal(name, systems) or _taken_up(name, dissolved) or _inert(known, name) for name in solids]
+    made = [
+        _crystal(name, systems)
+        or _taken_up(name, dissolved)
+        or _sublimed(known, name, gases)
+        or _inert(known, name)
+        for name in solids
+    ]
     formulas = {name: system.formula for name, system in systems.items()}
     made, dissolved = by_ions(known, made, dissolved, formulas)
     return Mixture(
@@ -179,6 +188,20 @@ def _taken_up(name: str, liquids: Iterable[Species]) -> Species | None:
 
 def _crystal_enthalpy(system: SoluteSystem, name: str, T: Any) -> Any:
     return system.crystal_enthalpy(T, name)
+
+
+def _sublimed(known: Library, name: str, gases: Iterable[str]) -> Species | None:
+    """A solid whose vapor is among the gases: it lies lower by its heat of sublimation."""
+    if name not in known.names("solid") or name not in gases or name not in known.names("fluid"):
+        return None
+    if not known.solid(name).sublimes:
+        return None
+    lower = float(once(partial(_below_vapor, known.solid(name), known.fluid(name)), ROOM))
+    return replace(_inert(known, name), reference_enthalpy=lower)
+
+
+def _below_vapor(solid: Solid, vapor: Fluid, T: Any) -> Any:
+    return vapor.vapor_enthalpy(T) - solid.heat_of_sublimation(T) - solid.enthalpy(T)
 
 
 def _inert(known: Library, name: str) -> Species:

@@ -1,20 +1,13 @@
 """Two crystal forms in one vessel: the less stable one dissolves while the stable one grows from the same
 solution.
-
-Each step solves one equation for the composition at its end: growth paths of both forms follow from it, and
-the solute balance must give it back. A richer solution grows more crystals, so that the root is bracketed;
-solute and crystals are conserved to rounding.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
-import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 
 from granum.core import procedure
 from granum.core.errors import InputError
@@ -33,9 +26,7 @@ from granum.core.kinds import (
 )
 from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, Steps
-from granum.crystallization.population.compiled import compiled
-from granum.crystallization.population.composition import Trial, settled
-from granum.crystallization.population.packets import Packets, Seeds, mean_power
+from granum.crystallization.population.rivals import Form, Rivals, compete, halved
 from granum.crystallization.vessels.batch import along, check_charge, narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal
 
@@ -55,142 +46,6 @@ class PolymorphCourse(NamedTuple):
     mean_diameter_metastable: Distance
     mean_diameter_stable: Distance
     step_error: Ratio
-
-
-class Form(eqx.Module):
-    """One crystal form: its solubility, what its crystals do, and what each is."""
-
-    solubility: Any
-    growth: Any
-    nucleation: Any
-    dissolution: Any
-    crystal: Crystal
-
-    def rate(self, ratio: Any, saturated: Any, temperature: Any) -> Any:
-        """Growth rate, negative for dissolution."""
-        grows = self.growth(ratio, saturated, temperature)
-        return grows - self.dissolution(ratio, saturated, temperature)
-
-
-class _Both(eqx.Module):
-    forms: tuple[Form, Form]
-    liquid_density: Any
-    cross_nucleation: Any
-
-    def kinetics(self, c: Any, T: Any, mass: list[Any]) -> tuple[list[Any], list[Any]]:
-        """Growth rates and births of both forms."""
-        forms = self.forms
-        volume = (1.0 + c) / self.liquid_density + sum(
-            m / f.crystal.density for m, f in zip(mass, forms, strict=True)
-        )
-        magma = (mass[0] / volume, (mass[1] + self.cross_nucleation * mass[0]) / volume)
-        saturated = [f.solubility(T) for f in forms]
-        rates = [f.rate(c, s, T) for f, s in zip(forms, saturated, strict=True)]
-        born = [volume * f.nucleation(c, s, T, m) for f, s, m in zip(forms, saturated, magma, strict=True)]
-        return rates, born
-
-
-class _Step(Trial):
-    both: _Both
-    crystals: tuple[Packets, Packets]
-    mass: list[Any]
-    before: list[Any]
-    births: list[Any]
-    temperature: Any
-    span: Any
-    total: Any
-
-    def rates_before(self) -> list[Any]:
-        return self.before
-
-    def rates(self, ratio: Any) -> list[Any]:
-        return self.both.kinetics(ratio, self.temperature, self.mass)[0]
-
-    def after(self, ratio: Any, weights: list[Any]) -> tuple[list[Any], list[Any]]:
-        """Growth paths and births of both forms."""
-        later, more = self.both.kinetics(ratio, self.temperature, self.mass)
-        paths = [
-            self.span * ((1.0 - w) * a + w * b) for w, a, b in zip(weights, self.before, later, strict=True)
-        ]
-        return paths, [0.5 * self.span * (a + b) for a, b in zip(self.births, more, strict=True)]
-
-    def left(self, ratio: Any, weights: list[Any]) -> Any:
-        held = sum(
-            form.crystal.mass_per_cube * (p.cubes_after(d) + n * mean_power(0.0, jnp.maximum(d, 0.0), 3))
-            for form, p, d, n in zip(self.both.forms, self.crystals, *self.after(ratio, weights), strict=True)
-        )
-        return self.total - held
-
-
-class _State(NamedTuple):
-    crystals: tuple[Packets, Packets]
-    ratio: Any
-
-
-class _Row(NamedTuple):
-    temperature: Any
-    ratio: Any
-    saturated: Any
-    masses: Any
-    sizes: Any
-
-
-@compiled
-def transform(
-    forms: tuple[Form, Form],
-    seeds: tuple[Seeds, Seeds],
-    program: Any,
-    ratio: Any,
-    times: Any,
-    liquid_density: Any,
-    cross_nucleation: Any,
-) -> _Row:
-    """Follow both forms through given times, one kg of solvent; births of the second also count a share of
-    the first.
-    """
-    times = jnp.asarray(times, dtype=float)
-    steps = times.shape[0] - 1
-
-    def room(seed: Seeds) -> Packets:
-        low, high, number = (jnp.append(x, jnp.zeros(steps)) for x in (seed.low, seed.high, seed.number))
-        return Packets(low, high, number)
-
-    cubes = [form.crystal.mass_per_cube for form in forms]
-    kept = [seed.low.shape[0] for seed in seeds]
-    total = ratio + sum(c * s.moments()[3] for c, s in zip(cubes, seeds, strict=True))
-
-    def masses(crystals: tuple[Packets, Packets]) -> list[Any]:
-        return [c * p.moments()[3] for c, p in zip(cubes, crystals, strict=True)]
-
-    def row(state: _State, T: Any) -> _Row:
-        moments = [p.moments() for p in state.crystals]
-        return _Row(
-            T + jnp.zeros(()),
-            state.ratio,
-            jnp.stack([f.solubility(T) + jnp.zeros(()) for f in forms]),
-            jnp.stack(masses(state.crystals)),
-            jnp.stack([jnp.where(m[3] > 0, m[4] / jnp.where(m[3] > 0, m[3], 1.0), 0.0) for m in moments]),
-        )
-
-    def advance(state: _State, given: tuple[Any, Any, Any]) -> tuple[_State, _Row]:
-        start, end, index = given
-        T, mass = program(end), masses(state.crystals)
-        both = _Both(forms, liquid_density, cross_nucleation)
-        rates, births = both.kinetics(state.ratio, program(start), mass)
-        step = _Step(both, state.crystals, mass, rates, births, T, end - start, total)
-        c, weights = settled(step, state.ratio, total)
-        paths, born = step.after(c, weights)
-        grown = tuple(
-            p.grown(d, n, 0.0, k + index)
-            for p, d, n, k in zip(state.crystals, paths, born, kept, strict=True)
-        )
-        new = _State((grown[0], grown[1]), total - sum(masses((grown[0], grown[1]))))
-        return new, row(new, T)
-
-    first = _State((room(seeds[0]), room(seeds[1])), jnp.asarray(ratio, dtype=float))
-    _last, rows = lax.scan(advance, first, (times[:-1], times[1:], jnp.arange(steps)))
-    begin = row(first, program(times[0]))
-    return jax.tree.map(lambda a, b: jnp.concatenate([jnp.asarray(a)[None], b]), begin, rows)
 
 
 @procedure(
@@ -274,11 +129,11 @@ def polymorph_batch(
         narrow_seeds(seed_size_stable, 0.0, seed_mass_stable, other.mass_per_cube),
     )
     steps += steps % 2
-    times, index = jnp.linspace(0.0, duration, steps + 1), np.arange(steps + 1)
-    # the coarse run takes every second step with zero length, so that both are one compiled program
+    times = jnp.linspace(0.0, duration, steps + 1)
+    rivals = Rivals(forms, liquid_density, (0.0, cross_nucleation))
     fine, coarse = (
-        transform(forms, seeds, temperature_program, solute_per_solvent, t, liquid_density, cross_nucleation)
-        for t in (times, times[index + index % 2])
+        compete(rivals, seeds, temperature_program, [solute_per_solvent], t)[1]
+        for t in (times, halved(times))
     )
     crystals = np.asarray(fine.masses)
     every = np.maximum(crystals.sum(axis=1), 1e-300)
@@ -287,7 +142,7 @@ def polymorph_batch(
     return PolymorphCourse(
         times,
         fine.temperature,
-        fine.ratio,
+        fine.ratios[:, 0],
         fine.saturated[:, 0],
         fine.saturated[:, 1],
         crystals[:, 0],
