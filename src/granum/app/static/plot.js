@@ -121,21 +121,21 @@ function Tabled({ trace, label }) {
   return html`<div class="wide" tabindex="0" role="region" aria-label=${label}><table class="small" aria-label=${label}><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: head }} />`)}</tr></thead><tbody>${columns[0].map((_, i) => html`<tr>${columns.map((column) => html`<td class="n">${column[i]}</td>`)}</tr>`)}</tbody></table></div>`;
 }
 
-/** The title of an upright axis in two lines where one is too long for it. */
-function upright(axis, height) {
-  const text = axis?.title?.text?.replaceAll('<br>', ' '); // two lines, not a third beside another's break
-  const bare = text?.replace(/<[^>]*>/g, '');
-  if (!bare || bare.length * 7.5 < height) return axis;
-  const breaks = [...text.matchAll(/ (?=<i>|\/ |\(|\S)/g)].map((found) => found.index);
-  const free = breaks.filter((at) => (text.slice(0, at).match(/</g) ?? []).length % 2 === 0); // in no tag
-  const middle = free.toSorted((a, b) => Math.abs(a - text.length / 2) - Math.abs(b - text.length / 2))[0];
-  return middle
-    ? {
-        ...axis,
-        automargin: true,
-        title: { ...axis.title, text: `${text.slice(0, middle)}<br>${text.slice(middle + 1)}` },
-      }
-    : { ...axis, automargin: true };
+const bare = (text) => text.replace(/<[^>]*>/g, '');
+
+/** An axis with its title in lines as short as the axis. */
+function titled(axis, room) {
+  const text = axis?.title?.text?.replaceAll('<br>', ' '); // no line beside the break of another
+  const length = text ? bare(text).length : 0;
+  if (length * 7.5 < room) return axis;
+  const spaces = [...text.matchAll(/ (?=<i>|\/ |\(|\S)/g)].map((found) => found.index);
+  const free = spaces.filter((at) => (text.slice(0, at).match(/</g) ?? []).length % 2 === 0); // in no tag
+  const lines = length * 7.5 > 2 * room ? 3 : 2;
+  const before = (at) => bare(text.slice(0, at)).length;
+  const nearest = (wanted) => free.toSorted((a, b) => Math.abs(before(a) - wanted) - Math.abs(before(b) - wanted))[0];
+  const breaks = [1, 2].slice(0, lines - 1).map((line) => nearest((line * length) / lines));
+  const broken = text.split('').map((letter, at) => (breaks.includes(at) ? '<br>' : letter)).join('');
+  return { ...axis, automargin: true, title: { ...axis.title, text: broken } };
 }
 
 /** Long names of bars in lines of a few words each: the room goes to the bars. */
@@ -152,6 +152,8 @@ function fitted({ layout, data }, width) {
   const height = (layout.height || UNSIZED) - 110;
   const right = layout.yaxis?.side === 'right';
   const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
+  const along = narrow ? titled(layout.xaxis, width - margin.l - margin.r) : layout.xaxis;
+  const lines = along?.title?.text?.split('<br>').length ?? 1;
   const own = layout.legend && ['x', 'y', 'orientation'].some((part) => layout.legend[part] !== undefined);
   const above = !narrow && !own && count > 1 && count <= 6 && layout.showlegend !== false;
   if (above) margin.t = 34;
@@ -161,7 +163,7 @@ function fitted({ layout, data }, width) {
         orientation: 'h',
         x: 0,
         xanchor: 'left',
-        y: -75 / height, // below the title of the axis, however low the chart is
+        y: -(55 + 20 * lines) / height, // below the title of the axis, however low the chart is
         yanchor: 'top',
         font: { size: 11 },
       }
@@ -170,7 +172,7 @@ function fitted({ layout, data }, width) {
       : layout.legend;
   const axes = narrow
     ? {
-        xaxis: { ...layout.xaxis, dtick: undefined, nticks: 6, tickangle: 0 },
+        xaxis: { ...along, dtick: undefined, nticks: 6, tickangle: 0 },
         ...(count > 8 ? { showlegend: false } : {}),
       }
     : {};
@@ -181,7 +183,7 @@ function fitted({ layout, data }, width) {
         const [low, high] = axis.domain ?? [0, 1];
         return [
           part,
-          upright({ ...axis, ...(narrow && !right && { automargin: true }) }, (high - low) * height),
+          titled({ ...axis, ...(narrow && !right && { automargin: true }) }, (high - low) * height),
         ];
       }),
   );
