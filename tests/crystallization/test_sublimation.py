@@ -98,7 +98,7 @@ def _random(rng: np.random.Generator) -> Stream:
 @eqx.filter_jit
 def _passed(feed: Stream, hot: Any, share: Any, cold: Any) -> tuple[Any, Any]:
     """Through a vaporizer and a condenser."""
-    vaporizer, condenser = Sublimer(hot, saturation_share=share), Desublimer(cold)
+    vaporizer, condenser = Sublimer(hot, vapor_saturation=share), Desublimer(cold)
     up = vaporizer.outlets(vaporizer.inside(feed), feed)
     return up, condenser.outlets(condenser.inside(up.vapor), up.vapor)
 

@@ -111,7 +111,7 @@ class Sublimer(Unit):
 
     temperature: Temperature
     pressure: GasPressure | None = None
-    saturation_share: Saturated = 1.0
+    vapor_saturation: Saturated = 1.0
 
     limits: ClassVar[Limits] = {
         "vapor": Limit("share of the volatile solids that goes to vapor", 0.5, 1.0, "dimensionless", SOURCE)
@@ -126,7 +126,7 @@ class Sublimer(Unit):
         by_species = feed.solid_by_species
         here = jnp.stack([feed.gas[v.gas] for v in found])
         offered = jnp.stack([by_species[v.solid] for v in found]) + here
-        shares = self.saturation_share * _saturation(found, self.temperature, self._pressure(feed))
+        shares = self.vapor_saturation * _saturation(found, self.temperature, self._pressure(feed))
         return Sublimed(found, jnp.maximum(_vapors(found, feed, offered, shares), here))
 
     def outlets(self, inside: Sublimed, feed: Stream) -> SublimerOutlets:

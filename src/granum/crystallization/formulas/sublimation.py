@@ -93,7 +93,7 @@ def entrainer_balance(
     pressure_outlet: GasPressure,
     molar_mass: MolarMass,
     carrier_molar_mass: MolarMass,
-    saturation_share: Saturated = 1.0,
+    vapor_saturation: Saturated = 1.0,
 ) -> EntrainerBalance:
     """Vapor that a carrier gas takes up over a hot solid and what it still holds behind the condenser, with
     the carrier needed and the share that is lost if the gas is not used again.
@@ -106,7 +106,7 @@ def entrainer_balance(
     >>> round(out.product_recovery, 4)
     0.9981
     """
-    p, P = saturation_share * sublimation_pressure_inlet, pressure_inlet
+    p, P = vapor_saturation * sublimation_pressure_inlet, pressure_inlet
     end, P_end = sublimation_pressure_outlet, pressure_outlet
     mass = molar_mass / carrier_molar_mass
     open_in, open_out = p < P, end < P_end
