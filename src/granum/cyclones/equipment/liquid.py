@@ -50,8 +50,8 @@ class Hydrocyclone(Unit):
     the liquid are outside the model: they are divided like the liquid, and a check tells it.
 
     The correlations do not know how thick an underflow still leaves. Above half of solids by volume it comes
-    as a rope, which a check tells; beyond 0.6, as solids lie in a heap, the apex is choked, and what it cannot
-    pass goes over, of all sizes in the same share (both figures recalled, the share our own).
+    as a rope, which a check tells; beyond 0.6, as solids lie in a heap, the apex is choked, and what it
+    cannot pass goes over, of all sizes in the same share (both figures recalled, the share our own).
     """
 
     diameter: Length
