@@ -29,7 +29,9 @@ def thresholds(streams: Iterable[Stream]) -> dict[str, float]:
 
 def without_noise(unit: Unit, sheet: Sheet, least: Mapping[str, float]) -> Sheet:
     """Figures, checks and utilities of a unit, zero where they are below the thresholds of their line."""
-    card = type(unit).card
+    card = getattr(type(unit), "card", None)
+    if card is None:  # of a unit that declares nothing, nothing is told
+        return sheet
     told = {p.name: cleared(p, value, least) for p, value in zip(card.outputs, sheet.figures, strict=True)}
     known = {use.parameter.name: use.parameter for use in card.utilities}
     return sheet._replace(
