@@ -283,8 +283,10 @@ def filters(classes: int) -> dict[str, Case]:
             lambda f, u: MembranePress(
                 *_cake(f, u),
                 chamber_depth=0.02 + 0.03 * u[4],
-                void_fraction_squeezed=0.3 + 0.2 * u[3],
-                squeezing_time=300.0 + 1500.0 * u[4],
+                void_fraction_squeezed=0.25 + 0.3 * u[1],
+                squeezing_pressure=10.0 ** (4.5 + 2.0 * u[3]),
+                compaction_exponent=0.5 * u[2],
+                squeezing_time=1500.0 * u[4],
                 consolidation_coefficient=10.0 ** (-9.0 + 3.0 * u[5]),
                 **batch(u),
             ),
@@ -383,6 +385,7 @@ def filters(classes: int) -> dict[str, Case]:
                 removal_rated=0.5 + 0.4999 * u[3],
                 pressure_drop_change=5e4 + 2.5e5 * u[4],
                 pressure_drop_rated=10.0 ** (3.0 + 1.5 * u[5]),
+                liquid_per_length=10.0 ** (-5.0 + 3.0 * u[1]),
             ),
         ),
         "deep bed": Case(

@@ -6,7 +6,9 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
+from granum.cases.reading import read_text
 from granum.core import flags
 from granum.core.errors import ApplicabilityError, InputError
 from granum.cyclones.charts import gas_cyclone_chart
@@ -189,6 +191,84 @@ def test_hydrocyclone_closes() -> None:
     assert share[-1] > 0.99
     assert all(np.isfinite(float(x)) for x in unit.operate(feed=feed).figures)
     assert unit.operate(feed=feed).checks
+
+
+def test_an_apex_lets_out_nothing_thicker_than_a_heap() -> None:
+    water = Mixture(
+        solids=(Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)),),
+        liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),),
+        gases=(),
+        size_edges=EDGES,
+        liquid_viscosity=lambda w, T: 1e-3,
+    )
+    feed = empty(water).replace(
+        solid=jnp.full((1, 12), 0.03), liquid=jnp.array([3.0]), pressure=jnp.asarray(4e5)
+    )
+    told = "solids by volume in the underflow"
+    overs = []
+    for opening in np.array([0.1, 0.15, 0.2, 0.25, 0.3]) * 0.1:
+        unit = Hydrocyclone(0.1, opening)
+        made = unit.operate(feed=feed)
+        under, over = made.outlets.underflow, made.outlets.overflow
+        assert float(closure([feed], [under, over]).mass) < 1e-12
+        share = np.asarray(under.solid / feed.solid)[0]
+        water_split = float(under.liquid[0] / feed.liquid[0])
+        assert np.all(np.diff(share) >= 0)
+        assert np.all(share >= water_split)
+        thick = float(under.solids_volume_fraction)
+        assert thick <= 0.6 + 1e-12
+        assert {c.name: c.ok for c in made.checks}[told] == (thick <= 0.5)
+        free = hydrocyclones.hydrocyclone_efficiency(
+            np.asarray(water.sizes), made.figures.cut_size, 2.7, water_split
+        )
+        by_weight = 1.0 / (1.0 + 1000.0 / 2650.0 * 0.4 / 0.6)
+        if float(jnp.sum(free * 0.03)) / by_weight > float(jnp.sum(free * 0.03)) + 3.0 * water_split:
+            assert thick == pytest.approx(0.6, rel=1e-9)
+        else:
+            np.testing.assert_allclose(share, np.asarray(free), rtol=1e-9)
+        overs.append(float(over.solid_flow))
+    assert np.all(np.diff(overs) < 0.0)  # a wider apex lets more out below
+
+
+# nearly all sand goes round through three choked apexes: (t/h of solid, of water, of dilution, size in um,
+# spread), then body, apex (cm) and number of rougher, cleaner and scavenger
+ROUND = {
+    "50 times": ((3.396, 55.539, 36.0, 169.7, 0.85), (26.54, 4.313, 2), (5.24, 0.703, 64), (5.1, 1.392, 92)),
+    "18 times": (
+        (70.464, 757.682, 366.35, 42.1, 1.03),
+        (6.74, 1.192, 400),
+        (11.31, 1.381, 82),
+        (11.26, 3.084, 227),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ROUND)
+def test_a_network_whose_apexes_are_choked_is_solved_and_told(name: str) -> None:
+    (solid, liquid, dilution, size, spread), *stages = ROUND[name]
+    text = (EXAMPLES / "hydrocyclone-network" / "line.toml").read_text()
+    text = text[: text.index("[specifications")]
+    for old, new in (
+        ('smallest = "0.25 um", largest = "1.024 mm"', 'smallest = "0.02 um", largest = "2 mm"'),
+        ('"10 t/h"', f'"{solid} t/h"'),
+        ('"90 t/h"', f'"{liquid} t/h"'),
+        ('"60 t/h"', f'"{dilution} t/h"'),
+        ('"80 um", distribution_exponent = 0.9', f'"{size} um", distribution_exponent = {spread}'),
+    ):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    settings = {}
+    for unit, (body, apex, number) in zip(("rougher", "cleaner", "scavenger"), stages, strict=True):
+        settings |= {
+            f"{unit}.diameter": 0.01 * body,
+            f"{unit}.underflow_diameter": 0.01 * apex,
+            f"{unit}.parallel_number": float(number),
+        }
+    run = read_text(text).with_values(**settings).solve()
+    assert run.audit["mass_closure"] < 1e-9
+    told = {c.name: c for c in run.solution.sheets["cleaner"].checks}["solids by volume in the underflow"]
+    assert not told.ok
+    assert told.value == pytest.approx(0.6, rel=1e-9)
 
 
 def test_chart() -> None:

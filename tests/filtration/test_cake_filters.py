@@ -22,6 +22,7 @@ from granum.filtration.equipment.continuous import (
     RotaryDiscFilter,
     RotaryVacuumDrum,
 )
+from granum.filtration.formulas.deliquoring import capillary_number_cake, irreducible_saturation
 from granum.streams.audit import closure
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream
@@ -243,3 +244,40 @@ def test_what_turns_a_drum_has_the_size_of_a_nameplate():
     assert 1e3 / 3.0 <= drive(5.0) < drive(80.0) <= 3.0 * 7.5e3
     assert drive(20.0, drive_power_per_area="0.2 kW/m2") == pytest.approx(4e3)
     assert drive(20.0, drive_power_per_area=0.0) == 0.0
+
+
+def test_gas_enters_no_cake_below_its_threshold_pressure():
+    """Wakeman and Tarleton's 4.6 sigma (1 - e)/(e d), by hand for 2 um and a void fraction of 0.45; above it
+    Brooks and Corey leave the fifth power of the ratio of pressures.
+    """
+    m = mixture()
+    feed = stream(m, solid=0.1, water=1.0)
+    threshold = 4.6 * 0.072 * 0.55 / (0.45 * 2e-6)
+    assert threshold == pytest.approx(202.4e3, rel=1e-4)
+
+    def drained(pressure):
+        unit = PressureLeafFilter(
+            10.0,
+            pressure,
+            1e8,
+            0.45,
+            full_cake_thickness=0.01,
+            deliquoring_time=1e7,
+            particle_diameter=2e-6,
+        )
+        made = unit.operate(feed=feed)
+        check = {c.name: c for c in made.checks}[
+            "pressure drop over the threshold pressure of a cake that is drained"
+        ]
+        assert check.value == pytest.approx(pressure / threshold, rel=1e-9)
+        assert check.ok == (pressure >= threshold)
+        return float(made.figures.cake_saturation), float(made.figures.moisture_dry_basis)
+
+    full = 0.45 * 996.9 / (0.55 * 2710.0)
+    for below in (0.3, 0.999):
+        assert drained(below * threshold) == pytest.approx((1.0, full), rel=1e-3)
+    found = [drained(x * threshold)[0] for x in (1.001, 1.1, 1.5, 2.0, 4.0)]
+    assert found[0] > 0.99
+    assert np.all(np.diff(found) < 0.0)
+    least = irreducible_saturation(capillary_number_cake(2e-6, 0.45, 0.01, 1.5 * threshold, 996.9, 0.072))
+    assert found[2] == pytest.approx(least + (1.0 - least) / 1.5**5, rel=1e-9)

@@ -96,3 +96,16 @@ def test_a_membrane_press_squeezes_harder_than_it_filters() -> None:
     assert wetness[0] > wetness[1] > wetness[2]
     rigid = pressed("membrane_press", squeezing_pressure=3.0 * pump)
     assert float(rigid.figure("membrane_press.moisture_dry_basis")) == pytest.approx(wetness[0], rel=1e-9)
+
+
+def test_a_membrane_loosens_nothing_and_needs_time_and_pressure() -> None:
+    ratio, harder = "void fraction after squeezing over before", "squeezing pressure over filtration pressure"
+    loose = pressed("membrane_press", void_fraction=0.5, void_fraction_squeezed=0.6)
+    asked = checks(loose, "membrane_press")
+    assert asked[ratio].value == pytest.approx(0.6 / 0.5)
+    assert not asked[ratio].ok
+    plain = pressed("membrane_press", void_fraction=0.5, void_fraction_squeezed=0.45, squeezing_time=0.0)
+    moisture = "membrane_press.moisture_dry_basis"
+    assert plain.figure(moisture) == pytest.approx(loose.figure(moisture), rel=1e-12)
+    weak = pressed("membrane_press", pressure_drop="8 bar", squeezing_pressure="6 bar")
+    assert not checks(weak, "membrane_press")[harder].ok

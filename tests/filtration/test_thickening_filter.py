@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 import scipy
 
 import granum as gr
 from granum.core.errors import ConvergenceError
+from granum.filtration.equipment.thickening import ThickeningFilter
+from granum.streams.mixture import Mixture, Species
+from granum.streams.stream import empty
 
 KEY = "filtration.thickening_filter"
 CHALK = {"pressure_drop": 338e3, "cake_resistance": 1.863e11, "medium_resistance": 10.63e10}
@@ -141,3 +145,33 @@ def test_pulses_that_take_everything_back():
 def test_what_is_thicker_than_a_packed_cake_is_no_slurry():
     with pytest.raises(ConvergenceError, match="thicker than a packed cake"):
         gr.alone(KEY, solids_volume_fraction_thickened="50 %").solve()
+
+
+def test_clods_that_float_are_told_unless_the_vessel_is_stirred():
+    told = "share of the solids that is heavier than the liquid"
+    fat = Mixture(
+        solids=(Species("fat", (("fat", 1.0),), (920.0,), (2000.0,)),),
+        liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),),
+        gases=(),
+        size_edges=(1e-5, 1e-4),
+        liquid_viscosity=lambda w, T: 1e-3,
+    )
+    feed = empty(fat).replace(solid=jnp.full((1, 1), 0.1), liquid=jnp.array([3.0]))
+    for contents in ("feed", "thickened"):
+        unit = ThickeningFilter(10.0, 2e5, 1e11, 0.5, 0.2, vessel_contents=contents)
+        check = {c.name: c for c in unit.operate(feed=feed).checks}[told]
+        assert check.ok == (contents == "thickened")
+
+
+def test_solid_without_liquid_leaves_thickened_and_has_no_flux():
+    unit = ThickeningFilter(10.0, 2e5, 1e13, 0.5, 0.2, backwash_volume_per_area=0.01)
+    sand = Mixture(
+        solids=(Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)),),
+        liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),),
+        gases=(),
+        size_edges=(1e-5, 1e-4),
+        liquid_viscosity=lambda w, T: 1e-3,
+    )
+    made = unit.operate(feed=empty(sand).replace(solid=jnp.full((1, 1), 0.1)))
+    assert float(made.figures.filtrate_flux) == 0.0
+    assert float(made.outlets.thickened.solid_flow) == pytest.approx(0.1)

@@ -153,10 +153,11 @@ def climb(
             left = beginning(sheet, (), settled.designed)._replace(near=beginning(sheet, targets).near)
         tried = _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, left)
         given_up = watch is not None and (watch.stopped or watch.late)
-        if targets and not bool(tried.designed.solution.converged) and not given_up:
+        lost = not targets and not np.all(tried.findings.finite)
+        if not bool(tried.designed.solution.converged) and not given_up and not lost:
             # near rest, a loop through which nearly all goes round holds Newton's steps short
-            empty = beginning(sheet, targets)
-            tried = _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, empty)
+            again = beginning(sheet, targets, None if targets else tried.designed)
+            tried = _in_passes(_exactly, EXACT["method"], sheet, targets, EXACT["max_steps"], watch, again)
         return tried
 
     most = QUICK * (1 + len(targets))

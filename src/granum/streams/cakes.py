@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
+from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, empty
 
 
@@ -30,6 +31,19 @@ def solid_diameter(feed: Stream, given: Any = None) -> Any:
         return given
     inverse = jnp.sum(feed.size_fractions / feed.mixture.sizes)
     return jnp.where(inverse > 0, 1.0 / jnp.where(inverse > 0, inverse, 1.0), 1e-4)
+
+
+def sinking_solids(feed: Stream) -> tuple[Any, Any]:
+    """Share by mass of the solids that is heavier than the liquid, 1 of none, and its mean density, kg/m³;
+    that of all solids where none sinks.
+    """
+    density = feed.mixture.densities("solids", feed.temperature)
+    sinking = jnp.where(density > feed.liquid_density, feed.solid_by_species, 0.0)
+    some = jnp.sum(sinking) > 0.0
+    mean = jnp.where(some, jnp.sum(sinking), 1.0) / jnp.where(some, jnp.sum(sinking / density), 1.0)
+    return safe_divide(jnp.sum(sinking), feed.solid_flow, otherwise=1.0), jnp.where(
+        some, mean, feed.solid_density
+    )
 
 
 def part_cake(

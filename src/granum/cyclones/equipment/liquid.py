@@ -16,9 +16,12 @@ from granum.cyclones.formulas.hydrocyclones import (
     hydrocyclone_efficiency,
 )
 from granum.numerics.smooth import safe_divide
+from granum.streams.cakes import sinking_solids
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import PUMPED, pumped
+
+MOST_PACKED = 0.6  # of solids by volume in what an apex lets out
 
 
 class Split(NamedTuple):
@@ -44,8 +47,11 @@ class Hydrocyclone(Unit):
     liquid by the water split.
 
     Both outlets are open to the air: what the feed lacks in pressure, its own pump gives. Solids lighter than
-    the liquid are outside the model: they are divided like the liquid, and a check tells
-    it.
+    the liquid are outside the model: they are divided like the liquid, and a check tells it.
+
+    The correlations do not know how thick an underflow still leaves. Above half of solids by volume it comes
+    as a rope, which a check tells; beyond 0.6, as solids lie in a heap, the apex is choked, and what it
+    cannot pass goes over, of all sizes in the same share (both figures recalled, the share our own).
     """
 
     diameter: Length
@@ -55,6 +61,7 @@ class Hydrocyclone(Unit):
     limits: ClassVar[Limits] = {
         "drop": Limit("pressure drop", 3e4, 4e5, "Pa", "svarovsky2001"),
         "solids": Limit("solids by volume in the feed", 0.0, 0.1, "dimensionless", "castilho2000"),
+        "rope": Limit("solids by volume in the underflow", 0.0, 0.5, "dimensionless", "svarovsky2001"),
         "sinking": Limit(
             "share of the solids that is heavier than the liquid",
             1.0 - 1e-3,
@@ -65,6 +72,20 @@ class Hydrocyclone(Unit):
     }
 
     utilities: ClassVar[Utilities] = PUMPED
+
+    @staticmethod
+    def passed(share: Any, water: Any, feed: Stream) -> Any:
+        """The shares of species and sizes that a full apex lets out below: less of what goes beyond the share
+        of the water.
+        """
+        m = feed.mixture
+        axes = tuple(range(2, feed.solid.ndim))
+        volume = jnp.sum(feed.solid, axis=axes) / m.densities("solids", feed.temperature)[:, None]
+        along = water * jnp.sum(volume)
+        sorted_out = jnp.sum(volume * (share - water))
+        room = MOST_PACKED / (1.0 - MOST_PACKED) * water * feed.liquid_volume_flow - along
+        kept = jnp.clip(safe_divide(room, sorted_out, 1.0), 0.0, 1.0)
+        return water + kept * (share - water)
 
     def cut(self, feed: Stream, density: Any) -> HydrocycloneFigures:
         """Cut, pressure drop, split and sharpness for solids of a density."""
@@ -79,22 +100,9 @@ class Hydrocyclone(Unit):
             feed.liquid_viscosity,
         )
 
-    def _sinking(self, feed: Stream) -> tuple[Any, Any]:
-        """Share by mass of the solids that is heavier than the liquid, and its mean density; that of the
-        liquid where there is none.
-        """
-        density = feed.mixture.densities("solids", feed.temperature)
-        flows = jnp.sum(feed.solid, axis=tuple(range(1, feed.solid.ndim)))
-        sinking = jnp.where(density > feed.liquid_density, flows, 0.0)
-        some = jnp.sum(sinking) > 0.0
-        mean = jnp.where(some, jnp.sum(sinking), 1.0) / jnp.where(some, jnp.sum(sinking / density), 1.0)
-        return safe_divide(jnp.sum(sinking), feed.solid_flow, otherwise=1.0), jnp.where(
-            some, mean, feed.solid_density
-        )
-
     def inside(self, feed: Stream) -> tuple[HydrocycloneFigures, Any]:
         """Cut and split of the solids that sink, and their share of all solids."""
-        sinking, density = self._sinking(feed)
+        sinking, density = sinking_solids(feed)
         return self.cut(feed, density), sinking
 
     def outlets(self, inside: tuple[HydrocycloneFigures, Any], feed: Stream) -> Split:
@@ -106,6 +114,7 @@ class Hydrocyclone(Unit):
             jnp.asarray(m.sizes) + 0.0 * density, found.cut_size, found.sharpness, found.underflow_share
         )
         share = jnp.where(heavy, share, found.underflow_share)
+        share = self.passed(share, jnp.ravel(found.underflow_share)[0], feed)
         share = share.reshape(share.shape + (1,) * len(m.axes))
         under = feed.part(solid=share, liquid=jnp.ravel(found.underflow_share)[0])
         over = feed.replace(solid=feed.solid - under.solid, liquid=feed.liquid - under.liquid)
@@ -119,7 +128,12 @@ class Hydrocyclone(Unit):
     def measured(
         self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, figures: SplitFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {"drop": figures.pressure_drop, "solids": feed.solids_volume_fraction, "sinking": inside[1]}
+        return {
+            "drop": figures.pressure_drop,
+            "solids": feed.solids_volume_fraction,
+            "rope": outlets.underflow.solids_volume_fraction,
+            "sinking": inside[1],
+        }
 
     def drawn(
         self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, figures: SplitFigures, feed: Stream

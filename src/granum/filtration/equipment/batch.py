@@ -5,6 +5,7 @@ averaged over the cycle.
 from __future__ import annotations
 
 import abc
+import math
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar
 
@@ -208,6 +209,9 @@ class ChamberPress(Press):
     """
 
 
+HARDER = Limit("squeezing pressure over filtration pressure", 1.0, math.inf, "dimensionless", "wakeman2005")
+
+
 class SqueezingFilter(BatchFilter):
     """Abstract batch filter that squeezes its washed cake towards a lower void fraction, draining on one
     face.
@@ -233,8 +237,13 @@ class SqueezingFilter(BatchFilter):
 
     @property
     @abc.abstractmethod
+    def void_fraction_packed(self) -> Any:
+        """Void fraction of a cake that was only ever under the squeezing pressure."""
+
+    @property
     def void_fraction_end(self) -> Any:
-        """Void fraction that squeezing leads to in the end."""
+        """Void fraction that squeezing leads to in the end: no cake is loosened by it."""
+        return jnp.minimum(self.void_fraction_packed, self.void_fraction)
 
     @property
     def pressure_end(self) -> Any:
@@ -250,7 +259,9 @@ class SqueezingFilter(BatchFilter):
     @property
     def consolidation_ratio(self) -> Any:
         """Share of the possible squeezing that its time reaches."""
-        return 1.0 if self.consolidation_coefficient is None else self.consolidated(self.squeezing_time)
+        if self.consolidation_coefficient is None:
+            return jnp.where(jnp.asarray(self.squeezing_time) > 0.0, 1.0, 0.0)
+        return self.consolidated(self.squeezing_time)
 
     def void_left(self, reached: Any) -> Any:
         """Void volume per solid over that before squeezing, at a share of the possible squeezing."""
@@ -283,7 +294,7 @@ class SqueezingFilter(BatchFilter):
         self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
     ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {
-            "squeezed": self.void_fraction_end / self.void_fraction,
+            "squeezed": self.void_fraction_packed / self.void_fraction,
             "reached": self.consolidation_ratio,
         }
 
@@ -317,6 +328,7 @@ class MembranePress(SqueezingFilter, Press):
         | SqueezingFilter.limits
         | {
             "squeeze": Limit("squeezing pressure", 4e5, 2.5e6, "Pa", "wakeman2005"),
+            "harder": HARDER,
         }
     )
 
@@ -325,16 +337,21 @@ class MembranePress(SqueezingFilter, Press):
         return self.pressure_drop if self.squeezing_pressure is None else self.squeezing_pressure
 
     @property
-    def void_fraction_end(self) -> Any:
+    def void_fraction_packed(self) -> Any:
         packed = 1.0 - self.void_fraction_squeezed
         ratio = void_ratio(self.pressure_end, packed, self.pressure_drop, self.compaction_exponent, 0.0)
-        return jnp.minimum(ratio / (1.0 + ratio), self.void_fraction)
+        return ratio / (1.0 + ratio)
 
     def measured(
         self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
     ) -> dict[str, Any]:
         found = super().measured(inside, outlets, figures, feed, wash)
-        return found if self.squeezing_pressure is None else found | {"squeeze": self.squeezing_pressure}
+        if self.squeezing_pressure is None:
+            return found
+        return found | {
+            "squeeze": self.squeezing_pressure,
+            "harder": self.squeezing_pressure / self.pressure_drop,
+        }
 
 
 @equipment("nutsche", source="wakeman2005", title="Nutsche filter")

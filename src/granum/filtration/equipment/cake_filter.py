@@ -34,6 +34,7 @@ from granum.filtration.formulas.deliquoring import (
     gas_velocity_deliquoring,
     irreducible_saturation,
     saturation_after_deliquoring,
+    threshold_pressure_cake,
 )
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
 from granum.numerics.smooth import safe_divide
@@ -47,6 +48,7 @@ from granum.streams.utilities import AIR_VISCOSITY
 # so that a feed without solid or without liquid gives numbers: m³/s of filtrate, kg of cake per m³ of it,
 # resistance 1/m of nothing
 TRICKLE, THIN, OPEN = 1e-15, 1e-9, 1e3
+PORE_SIZE_INDEX = 5.0  # of Brooks and Corey, for cakes
 
 
 class Plan(NamedTuple):
@@ -111,8 +113,9 @@ class CakeFilter(CakeMaker):
     goes.
 
     The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power
-    ``compressibility`` of the pressure drop. With a ``transportable_moisture_limit`` the moisture of the cake
-    is checked against it.
+    ``compressibility`` of the pressure drop. Gas drains it only above its threshold pressure, and never below
+    what Brooks and Corey's capillarity holds. With a ``transportable_moisture_limit`` the moisture of the
+    cake is checked against it.
     """
 
     area: Area
@@ -134,6 +137,13 @@ class CakeFilter(CakeMaker):
         ),
         # above 1e-11 m² the source would rather drain or spin the crystals, which is no fault of a filter
         "filterable": Limit("permeability of the cake", 1e-16, math.inf, "m^2", "anlauf2019, § 6.3"),
+        "entered": Limit(
+            "pressure drop over the threshold pressure of a cake that is drained",
+            1.0,
+            math.inf,
+            "dimensionless",
+            "wakeman2005",
+        ),
         "flowing": Limit(
             "cake moisture, wet basis", 0.0, "transportable_moisture_limit", "kg/kg", "imsbc2008, app. 2"
         ),
@@ -245,14 +255,24 @@ class CakeFilter(CakeMaker):
             s.liquid_density,
             self.surface_tension,
         )
-        return saturation_after_deliquoring(
+        lowest = irreducible_saturation(capillary)
+        drained = saturation_after_deliquoring(
             plan.deliquoring_time,
             self.pressure_drop,
             self.permeability(s),
             s.dynamic_viscosity,
             self.void_fraction,
             thick,
-            irreducible_saturation(capillary),
+            lowest,
+        )
+        # however long it is blown, capillarity holds this: all where gas cannot enter
+        held = jnp.minimum(1.0 / self.over_threshold(feed), 1.0) ** PORE_SIZE_INDEX
+        return jnp.maximum(drained, lowest + (1.0 - lowest) * held)
+
+    def over_threshold(self, feed: Stream) -> Any:
+        """Pressure drop over that at which gas enters the cake."""
+        return self.pressure_drop / threshold_pressure_cake(
+            self.diameter(feed), self.void_fraction, self.surface_tension
         )
 
     def gas_flow(self, inside: Caked, feed: Stream, pressure: Any, pressure_outlet: Any) -> Any:
@@ -327,6 +347,8 @@ class CakeFilter(CakeMaker):
             "packed": feed.solids_volume_fraction / (1.0 - self.void_fraction),
             "filterable": self.permeability(inside.slurry),
         }
+        enters = self.over_threshold(feed)
+        found["entered"] = jnp.where(inside.plan.deliquoring_time > 0.0, enters, jnp.maximum(enters, 1.0))
         if self.transportable_moisture_limit is not None:
             moisture = outlets.cake.moisture_dry_basis
             found["flowing"] = moisture / (1.0 + moisture)

@@ -4,16 +4,14 @@ horizontal plates, and tubes.
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Any, ClassVar
 
 import equinox as eqx
-import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Length, PressureDrop, Ratio, Time, Within
 from granum.core.limits import Limit
-from granum.filtration.equipment.batch import CandleFilter, FlatFilter, SqueezingFilter
+from granum.filtration.equipment.batch import HARDER, CandleFilter, FlatFilter, SqueezingFilter
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures
 from granum.filtration.squeezing import void_ratio
 from granum.streams.cakes import Filtered
@@ -36,19 +34,15 @@ class HighPress(SqueezingFilter):
     squeezing_pressure: PressureDrop
     compaction_exponent: Exponent
 
-    limits: ClassVar[Limits] = SqueezingFilter.limits | {
-        "harder": Limit(
-            "squeezing pressure over filtration pressure", 1.0, math.inf, "dimensionless", "wakeman2005"
-        )
-    }
+    limits: ClassVar[Limits] = SqueezingFilter.limits | {"harder": HARDER}
 
     @property
-    def void_fraction_end(self) -> Any:
+    def void_fraction_packed(self) -> Any:
         packed = 1.0 - self.void_fraction
         ratio = void_ratio(
             self.squeezing_pressure, packed, self.pressure_drop, self.compaction_exponent, packed
         )
-        return jnp.minimum(ratio / (1.0 + ratio), self.void_fraction)
+        return ratio / (1.0 + ratio)
 
     @property
     def pressure_end(self) -> Any:

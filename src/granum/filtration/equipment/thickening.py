@@ -37,6 +37,7 @@ from granum.filtration.formulas.constant_pressure import (
 from granum.filtration.formulas.resistance import cake_resistance_power_law
 from granum.filtration.kinds import VolumePerArea
 from granum.numerics.smooth import safe_divide
+from granum.streams.cakes import sinking_solids
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import AREA, PUMPED, pumped
@@ -105,9 +106,9 @@ class ThickeningFilter(Unit):
     Between pulses the cake grows by Ruth; under shear only until its flux has fallen to what shear carries
     away, with ``mass_transfer_coefficient`` as in films of membranes: its value comes from a trial, which
     finds that flux in proportion to the logarithm of the solids. Without shear give none. Clods of a pulsed
-    cake sink, and the elements stand in slurry like the feed; in a vessel that is stirred all through they
-    stand in thickened slurry (``vessel_contents``). Each pulse is filtered again, and clears the medium.
-    Limits recalled, not opened.
+    cake sink, and the elements stand in slurry like the feed (a check tells of solids that would float); in a
+    vessel that is stirred all through they stand in thickened slurry (``vessel_contents``). Each pulse is
+    filtered again, and clears the medium. Limits recalled, not opened.
     """
 
     area: Area
@@ -135,6 +136,13 @@ class ThickeningFilter(Unit):
             "thickened solids over those of a packed cake", 0.0, 0.8, "dimensionless", "wakeman2005"
         ),
         "thicker": Limit("thickened solids over those of the feed", 1.0, 1e4, "dimensionless", "wakeman2005"),
+        "sinking": Limit(
+            "share of the solids that is heavier than the liquid",
+            1.0 - 1e-3,
+            1.0,
+            "dimensionless",
+            "wakeman2005",
+        ),
         "pulses": Limit(
             "share of the filtrate that pulses take back", 0.0, 0.2, "dimensionless", "wakeman2005"
         ),
@@ -187,8 +195,9 @@ class ThickeningFilter(Unit):
         loading = per_filtrate * jnp.minimum(growing, most)
         resists = jnp.maximum(resistance * loading + self.medium_resistance, OPEN)
         last = self.pressure_drop / (feed.liquid_viscosity * resists)
-        net = filtered - self.backwash_volume_per_area
-        unsolved((net > 0.0) | ~(feed.liquid_flow > 0.0), type(self).card, reason=SWALLOWED)
+        some = feed.liquid_flow > 0.0
+        net = jnp.where(some, filtered - self.backwash_volume_per_area, 0.0)
+        unsolved((net > 0.0) | ~some, type(self).card, reason=SWALLOWED)
         flux = net / (self.filtration_time + self.dead_time)
         needed = safe_divide((1.0 - liquid) * feed.liquid_volume_flow, flux, 0.0)
         return Pulsed(
@@ -235,6 +244,7 @@ class ThickeningFilter(Unit):
         self, inside: Pulsed, outlets: Thickened, figures: ThickeningFigures, feed: Stream
     ) -> dict[str, Any]:
         thick = outlets.thickened.solids_volume_fraction
+        sinking, _density = sinking_solids(feed)
         return {
             "capacity": figures.capacity_use,
             "pressure": jnp.asarray(self.pressure_drop),
@@ -243,6 +253,7 @@ class ThickeningFilter(Unit):
             "thicker": safe_divide(
                 self.solids_volume_fraction_thickened + 0.0 * thick, feed.solids_volume_fraction, 1.0
             ),
+            "sinking": sinking if self.vessel_contents == "feed" else 1.0 + 0.0 * sinking,
             "pulses": figures.backwash_share,
         }
 

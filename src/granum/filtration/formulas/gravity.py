@@ -207,11 +207,12 @@ def filtration_time_settling(
         return s * (B * mounted + A * deep * (mounted - jnp.exp(-s) * exprel(steep + s)))
 
     fallen = jnp.log(deep / end)
+    # what is left above the cake, end (e^(fallen - s) - 1): the difference of depths would lose its digits
     root = find_root(
-        lambda s: -deep * jnp.expm1(-s) + settling_velocity * lasts(s) - (deep - end),
+        lambda s: settling_velocity * lasts(s) - end * jnp.expm1(fallen - s),
         0.0,
         fallen * (1.0 + 1e-9),  # where nothing settles the root is the end itself
-        tolerance=1e-14,
+        tolerance=1e-13,
     )
     unconverged(root.converged)
     lain = jnp.minimum(root.value, fallen)
