@@ -53,4 +53,4 @@ def cleared(p: Parameter, value: Any, least: Mapping[str, float]) -> Any:
     if p.kind is None or value is None:
         return value
     low = DRY if p.kind is MOISTURE else least.get(p.kind.unit, 0.0)
-    return np.where(np.abs(value) < low, 0.0, value) if low else value
+    return np.where(np.abs(value) < low, 0.0, value)[()] if low else value  # a number stays one
