@@ -145,6 +145,12 @@ def add_line(
     _mark_short_decades(chart)
 
 
+def add_right_axis(chart: go.Figure, title: str, **more: Any) -> None:
+    """A second upright axis on the right, for lines with ``yaxis="y2"``; it has no grid of its own."""
+    axis = {"overlaying": "y", "side": "right", "showgrid": False, "title": title}
+    chart.update_layout(yaxis2=axis | more)
+
+
 def faded(color: str, opacity: float = 0.45) -> str:
     """A color that lets others shine through.
 

@@ -39,10 +39,8 @@ def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
         )
     elif kind.lower > -np.inf:
         word = _("greater than {low}") if kind.open_lower else _("at least {low}")
-        same = (
-            units.best_unit(float(value), kind) if kind.lower == 0.0 else None
-        )  # 0 in the unit of the value
-        allowed = word.format(low=units.show(kind.lower, kind, same))
+        beside = units.best_unit(float(value), kind) if kind.lower == 0.0 else None
+        allowed = word.format(low=units.show(kind.lower, kind, beside))
     elif kind.upper < np.inf:
         allowed = _("at most {high}").format(high=units.show(kind.upper, kind))
     else:

@@ -10,7 +10,19 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import chart
-from granum.core.charts import ACCENT, GAS, HEAT, LIQUID, OUT, SOLID, add_band, add_line, axis_title, figure
+from granum.core.charts import (
+    ACCENT,
+    GAS,
+    HEAT,
+    LIQUID,
+    OUT,
+    SOLID,
+    add_band,
+    add_line,
+    add_right_axis,
+    axis_title,
+    figure,
+)
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -182,15 +194,8 @@ def batch_chart(
         dash="dot",
         yaxis="y2",
     )
+    add_right_axis(drawing, axis_title("temperature", "degC"), tickmode="auto", nticks=6)
     drawing.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "title": axis_title("temperature", "degC"),
-            "showgrid": False,
-            "tickmode": "auto",
-            "nticks": 6,
-        },
         margin={"r": 70, "t": 80},
         legend={"orientation": "h", "y": 1.08},
     )

@@ -9,7 +9,18 @@ import numpy as np
 import plotly.graph_objects as go
 
 from granum.core import chart
-from granum.core.charts import ACCENT, HEAT, LINES, LIQUID, OUT, SOLID, add_line, axis_title, figure
+from granum.core.charts import (
+    ACCENT,
+    HEAT,
+    LINES,
+    LIQUID,
+    OUT,
+    SOLID,
+    add_line,
+    add_right_axis,
+    axis_title,
+    figure,
+)
 from granum.core.i18n import _
 from granum.core.kinds import Density, Distance, Length, MassRatio, Ratio, Series, Temperature, Time
 from granum.crystallization.charts_triangle import add_on_triangle, celsius, lay_out_triangle
@@ -144,14 +155,9 @@ def resolution_chart(
         add_line(drawing, t, np.asarray(values), word, color=color, dash=dash)
     share = 100.0 * np.asarray(out.enantiomer_fraction)
     add_line(drawing, t, share, _("purity of the crystals"), color=SOLID, yaxis="y2")
+    low = min(49.0, float(share.min()))
+    add_right_axis(drawing, axis_title("enantiomer_fraction", "percent"), range=[low, 101])
     drawing.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "title": axis_title("enantiomer_fraction", "percent"),
-            "showgrid": False,
-            "range": [min(49.0, float(share.min())), 101],
-        },
         margin={"r": 70, "t": 80},
         legend={"orientation": "h", "y": 1.08},
     )

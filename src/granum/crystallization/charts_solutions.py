@@ -8,7 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import chart
-from granum.core.charts import ACCENT, LINES, LIQUID, OUT, SOLID, add_line, axis_title, figure
+from granum.core.charts import ACCENT, LINES, LIQUID, OUT, SOLID, add_line, add_right_axis, axis_title, figure
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -67,14 +67,8 @@ def antisolvent_chart(
     add_line(drawing, 100.0 * w, saturated, _("solubility"), color=LIQUID, width=3)
     add_line(drawing, 100.0 * w, diluted, _("diluted solution"), color=ACCENT, dash="dash")
     add_line(drawing, 100.0 * w, 100.0 * share, _("yield"), color=SOLID, yaxis="y2")
+    add_right_axis(drawing, axis_title("yield_fraction", "percent"), range=[0, 100])
     drawing.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "title": axis_title("yield_fraction", "percent"),
-            "showgrid": False,
-            "range": [0, 100],
-        },
         margin={"r": 70, "t": 80},
         legend={"orientation": "h", "y": 1.08},
     )
@@ -215,14 +209,8 @@ def polymorph_chart(
         add_line(drawing, t, np.asarray(values), word, color=color, dash=dash)
     share = 100.0 * np.asarray(out.stable_fraction)
     add_line(drawing, t, share, _("stable form in the crystals"), color=SOLID, yaxis="y2")
+    add_right_axis(drawing, axis_title("stable_fraction", "percent"), range=[0, 102])
     drawing.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "title": axis_title("stable_fraction", "percent"),
-            "showgrid": False,
-            "range": [0, 102],
-        },
         margin={"r": 70, "t": 80},
         legend={"orientation": "h", "y": 1.08},
     )

@@ -24,18 +24,11 @@ EARLY = 0.2  # share of the way, within which a profile that changes no more is 
 
 def _drawn(x: Any, title: str, x_label: str) -> Any:
     """A figure with temperature on the left and moisture on the right."""
-    from granum.core.charts import axis_title, figure
+    from granum.core.charts import add_right_axis, axis_title, figure
 
     drawing = figure(x_label, axis_title("temperature", "degC"), title=title)
+    add_right_axis(drawing, axis_title("moisture_dry_basis", "kg/kg"), rangemode="tozero", tickmode="auto")
     drawing.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "showgrid": False,
-            "rangemode": "tozero",
-            "tickmode": "auto",
-            "title": axis_title("moisture_dry_basis", "kg/kg"),
-        },
         legend={"orientation": "h", "y": -0.22, "x": 0.0},
         margin={"r": 75, "b": 110},
     )

@@ -101,7 +101,7 @@ def cake_profile_chart(
     characteristic_pressure: PressureDrop,
 ) -> Any:
     """Liquid pressure, pressure on the solid and void fraction against height above the medium."""
-    from granum.core.charts import INK, LIQUID, SOLID, add_line, axis_title, figure
+    from granum.core.charts import INK, LIQUID, SOLID, add_line, add_right_axis, axis_title, figure
 
     z = np.linspace(0.0, 1.0, 101)
     found = cake_profile(
@@ -131,15 +131,8 @@ def cake_profile_chart(
         dash="dot",
         yaxis="y2",
     )
+    add_right_axis(drawing, axis_title("void_fraction"), tickformat=".3f", nticks=7)
     drawing.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "title": axis_title("void_fraction"),
-            "showgrid": False,
-            "tickformat": ".3f",
-            "nticks": 7,
-        },
         legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0.0},
         margin={"r": 80, "t": 80},
     )

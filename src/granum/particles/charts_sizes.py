@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from granum.core import chart
-from granum.core.charts import ACCENT, SOLID, add_line, add_points, axis_title, figure
+from granum.core.charts import ACCENT, SOLID, add_line, add_points, add_right_axis, axis_title, figure
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Distance, Fraction, Law, Length, Series
 from granum.core.units import best_unit, format_number, from_si
@@ -87,17 +87,15 @@ def distribution_figure(distribution: SizeDistribution, law: Any = None) -> go.F
             dash="dash",
             yaxis="y2",
         )
-    right = {
-        "overlaying": "y",
-        "side": "right",
-        "range": [0, 100],
-        "showgrid": False,
-        "title": axis_title("cumulative_fraction", "percent"),
-    }
-    drawing.update_layout(
-        yaxis2={**right, "tickmode": "array", "tickvals": list(range(0, 101, 20)), "automargin": True},
-        legend={"x": 0.02, "y": 0.98},
+    add_right_axis(
+        drawing,
+        axis_title("cumulative_fraction", "percent"),
+        range=[0, 100],
+        tickmode="array",
+        tickvals=list(range(0, 101, 20)),
+        automargin=True,
     )
+    drawing.update_layout(legend={"x": 0.02, "y": 0.98})
     return drawing
 
 

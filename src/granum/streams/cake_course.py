@@ -38,7 +38,7 @@ def still(name: str, duration: Any, thickness: Any, saturation: Any = 1.0) -> St
 
 def drawn_course(stages: Iterable[Stage]) -> Any:
     """Thickness and saturation of a cake over time, the stages shaded; None where no time passes."""
-    from granum.core.charts import ACCENT, INK, LIQUID, SOLID, add_line, axis_title, figure
+    from granum.core.charts import ACCENT, INK, LIQUID, SOLID, add_line, add_right_axis, axis_title, figure
     from granum.core.units import best_unit, from_si
 
     taken = [stage for stage in stages if float(stage.time[-1]) > 0.0]
@@ -94,16 +94,12 @@ def drawn_course(stages: Iterable[Stage]) -> Any:
             dash="dash",
             yaxis="y2",
         )
-        drawing.update_layout(
-            yaxis2={
-                "overlaying": "y",
-                "side": "right",
-                "showgrid": False,
-                "range": [0.0, 100.0 * room],
-                "tickmode": "array",
-                "tickvals": [0, 20, 40, 60, 80, 100],
-                "title": axis_title("cake_saturation", "%"),
-            },
+        add_right_axis(
+            drawing,
+            axis_title("cake_saturation", "%"),
+            range=[0.0, 100.0 * room],
+            tickmode="array",
+            tickvals=[0, 20, 40, 60, 80, 100],
         )
     top = float(from_si(np.nanmax(thick), z_unit, KINDS["Distance"]))
     drawing.update_layout(

@@ -71,16 +71,8 @@ def distribution_chart(outcome: Ensemble, v: Variable) -> go.Figure:
         yaxis="y2",
         line={"color": charts.INK, "width": 2},
     )
+    charts.add_right_axis(figure, _("cumulative / %"), range=[0, 100], tickmode="linear", dtick=25)
     figure.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "range": [0, 100],
-            "title": _("cumulative / %"),
-            "showgrid": False,
-            "tickmode": "linear",
-            "dtick": 25,
-        },
         yaxis_range=[0, 1.15 * 100 * counts.max() / len(x)],  # room for the names of the lines
         bargap=0,
         showlegend=False,

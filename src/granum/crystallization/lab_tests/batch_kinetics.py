@@ -87,7 +87,7 @@ class BatchKinetics(LabTest):
 
     def chart(self) -> Any:
         """Measured and fitted concentration over time, and the mean size where it was measured."""
-        from granum.core.charts import LIQUID, SOLID, add_line, add_points, axis_title, figure
+        from granum.core.charts import LIQUID, SOLID, add_line, add_points, add_right_axis, axis_title, figure
 
         minutes = np.asarray(self.time) / 60.0
         fitted = self.predicted({name: estimate.value for name, estimate in self.fit().parameters.items()})
@@ -108,14 +108,8 @@ class BatchKinetics(LabTest):
                 color=SOLID,
                 yaxis="y2",
             )
-            right = {
-                "overlaying": "y",
-                "side": "right",
-                "title": axis_title("mean_diameter_mass", "um"),
-                "showgrid": False,
-            }
+            add_right_axis(drawing, axis_title("mean_diameter_mass", "um"), tickmode="auto", nticks=6)
             drawing.update_layout(
-                yaxis2={**right, "tickmode": "auto", "nticks": 6},
                 margin={"r": 70, "t": 80},
                 legend={"orientation": "h", "y": 1.08},
             )
