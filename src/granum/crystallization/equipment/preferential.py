@@ -89,9 +89,9 @@ class Resolved(NamedTuple):
     held: Any
 
     @property
-    def left(self) -> Any:
-        """Crystals of both enantiomers that leave, kg per kg of solvent: all but what is held back."""
-        return jnp.maximum(self.course.masses[-1] - jnp.stack([self.held, 0.0 * self.held]), 0.0)
+    def leaving(self) -> Any:
+        """Crystals of both enantiomers beside those held back, kg per kg of solvent, over time."""
+        return jnp.maximum(self.course.masses - jnp.stack([self.held, 0.0 * self.held]), 0.0)
 
 
 @equipment(
@@ -108,10 +108,10 @@ class PreferentialCrystallizer(Stirred, Unit):
     conglomerate and seeded with one; outlets are means over the cycle.
 
     Both have one solubility and one kinetics. The wanted crystals are ``solid``, or the first ones; a share
-    of the product is held back as their seed, as in ``batch_crystallizer``, and crystals of the feed are
-    seeds of what they are. Without a law of dissolution crystals keep. The crop while pure is what has grown
-    beside the seed, per kg of solvent, when the purity of the crystals falls below the least one: end the
-    batch then. Two such vessels, seeded with one and the other, take each other's mother liquor.
+    of them, pure, is held back as their seed, as in ``batch_crystallizer``, and crystals of the feed are
+    seeds of what they are. Without a law of dissolution crystals keep. Purity is that of what leaves, without
+    the seed; the crop while pure is what has grown beside it, per kg of solvent, when the purity falls below
+    the least one: end the batch then. Two such vessels, seeded with one and the other, take each other's mother liquor.
     """
 
     temperature_program: Program
@@ -206,7 +206,7 @@ class PreferentialCrystallizer(Stirred, Unit):
 
     def outlets(self, inside: Resolved, feed: Stream) -> BatchOutlets:
         solid, liquid = feed.solid, feed.liquid
-        for role, packets, left in zip(inside.found, inside.end.crystals, inside.left, strict=True):
+        for role, packets, left in zip(inside.found, inside.end.crystals, inside.leaving[-1], strict=True):
             classes = packets.in_classes(feed.mixture.edges)
             classes = classes * safe_divide(left * inside.solvent, jnp.sum(classes), 0.0)
             classes = jnp.where(inside.solvent > TRICKLE, classes, feed_of(feed, role).crystals)
@@ -221,7 +221,7 @@ class PreferentialCrystallizer(Stirred, Unit):
         course, product = inside.course, outlets.product
         made = [product.solid_by_species[role.solid] for role in inside.found]
         wanted = feed_of(feed, inside.found[0])
-        share = pure_share(course.masses)
+        share = pure_share(inside.leaving)
         until = pure_until(inside.times, share, self.enantiomer_fraction_least)
         sigma = course.ratios / course.saturated - 1.0
         volume = product.slurry_volume_flow * self.cycle
