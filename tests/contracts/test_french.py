@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -13,10 +14,10 @@ from tests.sharing.places import EXAMPLES
 
 import granum
 from granum.core.glossary import glossary
-from granum.core.i18n import catalog
+from granum.core.i18n import catalog, language
 from granum.core.kinds import KINDS
 from granum.core.registry import everything
-from granum.core.sources import cite
+from granum.core.sources import PARTS, cite
 from granum.streams.units import Unit
 
 SOURCE = Path(granum.__file__).parent
@@ -102,3 +103,21 @@ def test_every_port_has_its_french() -> None:
     units = [thing for thing in everything().values() if isinstance(thing, type) and issubclass(thing, Unit)]
     ports = {port for unit in units for port in (*unit.outlet_names(), *(unit.inlet_names() or ()))}
     assert not sorted(port for port in ports if port.replace("_", " ") not in catalog("fr"))
+
+
+def test_the_place_in_a_source_is_told_in_french() -> None:
+    """Beside numbers and the words before them, as in "eq. 3"."""
+    cards = [thing.card for thing in everything().values()]
+    sources = {card.source for card in cards} | {limit.source for card in cards for limit in card.limits}
+    sources |= {use.utility.source for card in cards for use in getattr(card, "utilities", ())}
+    parts = {part.strip() for source in sources for part in source.split(";")}
+    own = {part for part in parts if " " in part.partition(",")[0]}
+    places = {part.partition(",")[2].strip() for part in parts - own} - {""}
+    assert len(places) > 150
+    assert {part for part in own if part not in catalog("fr")} == set()
+    words = {
+        place: re.findall(r"\b[a-z]{2,}\b", PARTS.sub("", place)) for place in places - set(catalog("fr"))
+    }
+    assert {place: found for place, found in words.items() if found and "notes" not in found} == {}
+    with language("fr"):
+        assert cite("ergun1952, eq. 3 and 5").endswith(" – éq. 3 et 5")

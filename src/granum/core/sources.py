@@ -8,9 +8,15 @@ from importlib.resources import files
 from typing import TYPE_CHECKING
 
 from granum.core.errors import unknown_name
+from granum.core.i18n import _
 
 if TYPE_CHECKING:
     from bibtexparser.model import Entry
+
+PARTS = re.compile(
+    r"\b(ch\.|chapter|sec\.|app\.|appendix|section|eq\.|tables?|ex\.|no\.|page|method|and|to)(?= )"
+)
+"""Words before the number of a part of a source, and between two."""
 
 duplicates: list[str] = []
 """Keys that stand in more than one file; a contract test keeps this empty."""
@@ -93,9 +99,24 @@ def keys_of(source: str) -> list[str]:
     return [part.strip().split(",", 1)[0].strip() for part in source.split(";") if part.strip()]
 
 
+def placed(place: str) -> str:
+    """Where in a source, in the language in use: in words of its own, else part by part.
+
+    >>> placed("eq. 5.23 and 5.25")
+    'eq. 5.23 and 5.25'
+    """
+    told = _(place)
+    return told if told != place else PARTS.sub(_before_number, place)
+
+
+def _before_number(part: re.Match[str]) -> str:
+    word = f"{part[0]} …"
+    return _(word).removesuffix(" …")
+
+
 def cite(source: str) -> str:
-    """A source spelled out: authors, year, title, place, with the equation or page kept. One in words, as of
-    somebody's own formula, stands as it is.
+    """A source spelled out: authors, year, title, and the place in it. One in words, as of somebody's own
+    formula, stands as it is.
 
     >>> cite("our report 17, figure 4")
     'our report 17, figure 4'
@@ -104,9 +125,9 @@ def cite(source: str) -> str:
     for part in (p.strip() for p in source.split(";")):
         if not part:
             continue
-        key, _, place = part.partition(",")
+        key, _comma, place = part.partition(",")
         if " " in key.strip():
-            written.append(part)
+            written.append(_(part))
             continue
         entry = reference(key.strip())
         authors = (
@@ -132,5 +153,7 @@ def cite(source: str) -> str:
             host,
             f"doi:{entry['doi']}" if entry.get("doi") else "",
         ]
-        written.append(". ".join(b for b in bits if b) + (f" – {place.strip()}" if place.strip() else ""))
+        written.append(
+            ". ".join(b for b in bits if b) + (f" – {placed(place.strip())}" if place.strip() else "")
+        )
     return " · ".join(written)

@@ -111,7 +111,8 @@ class PreferentialCrystallizer(Stirred, Unit):
     of them, pure, is held back as their seed, as in ``batch_crystallizer``, and crystals of the feed are
     seeds of what they are. Without a law of dissolution crystals keep. Purity is that of what leaves, without
     the seed; the crop while pure is what has grown beside it, per kg of solvent, when the purity falls below
-    the least one: end the batch then. Two such vessels, seeded with one and the other, take each other's mother liquor.
+    the least one: end the batch then. Two such vessels, seeded with one and the other, take each other's
+    mother liquor.
     """
 
     temperature_program: Program
