@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,7 +16,7 @@ from granum.cases.schema import OWN, Case, DynamicTable, FeedTable, MixtureTable
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.documents import read_toml
-from granum.core.errors import CaseError, GranumError, InputError, reason_of, unknown_name
+from granum.core.errors import CaseError, GranumError, InputError, reason_of, together, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
@@ -32,6 +32,7 @@ from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
 Shape = TypeVar("Shape", bound=BaseModel)
+Part = TypeVar("Part")
 MOST_STEPS = 100_000  # of a run in time
 LARGEST_FILE = 2_000_000  # bytes; a case is a page of text
 
@@ -132,11 +133,12 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
             problem.message if "[mixture" in problem.message else f"[mixture] {problem.message}",
             **problem.details,
         ) from None
-    feeds = {name: _feed(name, table, mixture) for name, table in case.feeds.items()}
-    units = {
-        name: _with_materials(_unit(name, dict(table)), mixture.materials)
-        for name, table in case.units.items()
-    }
+    problems: list[CaseError] = []
+    feeds = _each(case.feeds, lambda name, table: _feed(name, table, mixture), problems)
+    made = _each(case.units, lambda name, table: _unit(name, dict(table)), problems)
+    if problems:
+        raise together(problems)
+    units = {name: _with_materials(unit, mixture.materials) for name, unit in made.items()}
     links: dict[str, tuple[str, str]] = {name: ("", table.to) for name, table in case.feeds.items()}
     for name, table in case.streams.items():
         if name in links:
@@ -174,6 +176,19 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
         told,
         prices,
     )
+
+
+def _each(
+    tables: Mapping[str, Any], make: Callable[[str, Any], Part], problems: list[CaseError]
+) -> dict[str, Part]:
+    """What is made of the tables by name; where one is at fault, the next are looked at all the same."""
+    made: dict[str, Part] = {}
+    for name, table in tables.items():
+        try:
+            made[name] = make(name, table)
+        except CaseError as problem:
+            problems.append(problem)
+    return made
 
 
 def own_materials(tables: Mapping[str, Any]) -> dict[str, Any]:

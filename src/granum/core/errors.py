@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 from granum.core.i18n import _
 
+_MOST_TOLD = 6  # problems told at once
 _LONGEST_NAME = 100  # characters; what is longer is no misspelt name
 
 
@@ -49,6 +50,15 @@ class ConvergenceError(GranumError):
     def __init__(self, message: str, last: object = None, **details: object):
         super().__init__(message, **details)
         self.last = last
+
+
+def together(problems: Sequence[CaseError]) -> CaseError:
+    """One error that tells what is wrong in several places, each on a line; its details are of the first."""
+    told = list(dict.fromkeys(problem.message for problem in problems))
+    if len(told) > _MOST_TOLD:
+        more = len(told) - _MOST_TOLD
+        told[_MOST_TOLD:] = [_("… and {count} more.").format(count=more)]
+    return CaseError("\n".join(told), **problems[0].details)
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:

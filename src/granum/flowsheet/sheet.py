@@ -4,12 +4,12 @@ computed.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 
-from granum.core.errors import CaseError, unknown_name
+from granum.core.errors import CaseError, together, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.plan import Block, Link, plan
 from granum.streams.stream import Stream
@@ -48,10 +48,14 @@ class Flowsheet(eqx.Module):
         """
         self.units, self.feeds = dict(units), dict(feeds)
         self.order = tuple(units)  # dictionaries come out of compiled code sorted by key
-        named = [
-            Link(name, self._outlet(name, origin), self._inlet(name, target))
-            for name, (origin, target) in links.items()
-        ]
+        named, problems = [], []
+        for name, (origin, target) in links.items():
+            try:
+                named.append(Link(name, self._outlet(name, origin), self._inlet(name, target)))
+            except CaseError as problem:
+                problems.append(problem)
+        if problems:
+            raise together(problems)
         taken = {k.origin for k in named}
         for unit, thing in self.units.items():
             named += [
@@ -60,7 +64,8 @@ class Flowsheet(eqx.Module):
                 if f"{unit}.{port}" not in taken
             ]
         self.links = tuple(named)
-        self._require_complete()
+        if problems := list(self._incomplete()):
+            raise together(problems)
 
     def _unit(self, end: str, stream: str) -> tuple[str, str]:
         unit, _dot, port = end.partition(".")
@@ -99,13 +104,14 @@ class Flowsheet(eqx.Module):
             raise CaseError(unknown_name(_("Inlet"), port, ports, place).message, stream=stream)
         return end
 
-    def _require_complete(self) -> None:
+    def _incomplete(self) -> Iterator[CaseError]:
+        """What is connected twice, or not at all."""
         for end in ("origin", "target"):
             seen: dict[str, str] = {}
             for k in self.links:
                 place = getattr(k, end)
                 if place and place in seen:
-                    raise CaseError(
+                    yield CaseError(
                         _(
                             "Streams '{first}' and '{second}' are both connected to '{port}'; use a "
                             "mixer or a splitter."
@@ -115,19 +121,19 @@ class Flowsheet(eqx.Module):
         names = [k.name for k in self.links]
         for k in self.links:
             if not k.origin and k.name not in self.feeds:
-                raise CaseError(
+                yield CaseError(
                     _("Stream '{stream}' comes from nowhere: give it under [feeds] or an origin.").format(
                         stream=k.name
                     )
                 )
         for name in self.feeds:
             if name not in names or not self.link(name).target:
-                raise CaseError(_("Feed '{feed}' goes nowhere: name the unit it enters.").format(feed=name))
+                yield CaseError(_("Feed '{feed}' goes nowhere: name the unit it enters.").format(feed=name))
         entered = {k.target for k in self.links}
         for unit, thing in self.units.items():
             for port in thing.inlet_names() or ():
                 if f"{unit}.{port}" not in entered and port not in thing.optional_inlets():
-                    raise CaseError(
+                    yield CaseError(
                         _(
                             "Inlet '{port}' of unit '{unit}' is open: connect a stream or a feed to it."
                         ).format(port=port, unit=unit),
