@@ -58,8 +58,10 @@ class BeltDryer(LayerDryer):
     steps: Annotated[int, Within(1, 100_000)] = 120
 
     limits: ClassVar[Limits] = LayerDryer.limits | {
-        "inlet": Limit("gas temperature at the inlet", 323.15, 623.15, "K", TABLE),
-        "capacity": Limit("water evaporated per area and hour", 6.0, 50.0, "kg/(hour*m^2)", TABLE),
+        "inlet": Limit("gas temperature at the inlet", 323.15, 623.15, "K", TABLE, quiet=True),
+        "capacity": Limit(
+            "water evaporated per area and hour", 6.0, 50.0, "kg/(hour*m^2)", TABLE, quiet=True
+        ),
         "velocity": Limit("gas velocity through the layer", 0.25, 2.5, "m/s", "keey1978"),
         "lifted": Limit(
             "gas pressure lost over the weight of the layer, which gas from below lifts at 1",
@@ -133,7 +135,7 @@ class BeltDryer(LayerDryer):
     ) -> dict[str, Any]:
         wet = self.bulk_density_dry * (1.0 + feed.moisture_dry_basis)
         return super().measured(inside, outlets, figures, feed, gas) | {
-            "inlet": gas.temperature,
+            "inlet": self.temperature_drying(figures, gas),
             "capacity": self.hourly(figures),
             "velocity": gas.gas_volume_flow / self.area,
             "lifted": self.pressure_lost(feed, gas) / (wet * STANDARD_GRAVITY * self.layer_depth),

@@ -115,9 +115,11 @@ class FluidBedDryer(BedDryer):
                 "gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"
             ),
             "velocity": Limit("gas velocity at the inlet", 0.2, 3.0, "m/s", TABLE),
-            "inlet": Limit("gas temperature at the inlet", 323.15, 473.15, "K", TABLE),
+            "inlet": Limit("gas temperature at the inlet", 323.15, 473.15, "K", TABLE, quiet=True),
             "time": Limit("residence time of the solid", 120.0, 3600.0, "s", TABLE),
-            "capacity": Limit("water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE),
+            "capacity": Limit(
+                "water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE, quiet=True
+            ),
             "warmer": Limit(
                 "steam in the coils above the hottest bed", 5.0, math.inf, "delta_degC", COILS, quiet=True
             ),
@@ -225,7 +227,7 @@ class FluidBedDryer(BedDryer):
         return found | {
             "fluidized": U / self.minimum_velocity(feed, gas),
             "velocity": U,
-            "inlet": gas.temperature,
+            "inlet": self.temperature_drying(figures, gas),
             "time": figures.residence_time,
             "capacity": self.hourly(figures),
         }

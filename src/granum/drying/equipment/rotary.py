@@ -98,8 +98,10 @@ class RotaryDryer(CellDryer):
         ),
         "flux": Limit("gas per cross-section of the drum", 0.5, 5.0, "kg/(m^2*s)", "treybal1980, ch. 12"),
         "slender": Limit("length over diameter of the drum", 4.0, 10.0, "dimensionless", "perry2008, ch. 12"),
-        "inlet": Limit("gas temperature at the inlet", 373.15, 1173.15, "K", TABLE),
-        "capacity": Limit("water evaporated per volume and hour", 3.0, 100.0, "kg/(hour*m^3)", TABLE),
+        "inlet": Limit("gas temperature at the inlet", 373.15, 1173.15, "K", TABLE, quiet=True),
+        "capacity": Limit(
+            "water evaporated per volume and hour", 3.0, 100.0, "kg/(hour*m^3)", TABLE, quiet=True
+        ),
     }
 
     utilities: ClassVar[Utilities] = (
@@ -216,7 +218,7 @@ class RotaryDryer(CellDryer):
                 "filled": filled,
                 "flux": gas.gas_flow / self.section,
                 "slender": jnp.asarray(self.length / self.diameter),
-                "inlet": gas.temperature,
+                "inlet": self.temperature_drying(figures, gas),
                 "capacity": self.hourly(figures),
             }
         )

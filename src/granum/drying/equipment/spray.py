@@ -87,7 +87,9 @@ class SprayDryer(Dryer):
             "inlet": Limit("gas temperature at the inlet", 373.15, 873.15, "K", TABLE),
             "outlet": Limit("gas temperature at the outlet", 333.15, 473.15, "K", TABLE),
             "time": Limit("residence time of the gas", 10.0, 30.0, "s", TABLE),
-            "capacity": Limit("water evaporated per volume and hour", 1.0, 30.0, "kg/(hour*m^3)", TABLE),
+            "capacity": Limit(
+                "water evaporated per volume and hour", 1.0, 30.0, "kg/(hour*m^3)", TABLE, quiet=True
+            ),
             "flown": Limit(
                 "share of the solid that the rising gas takes along",
                 0.0,

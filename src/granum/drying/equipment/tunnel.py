@@ -52,8 +52,10 @@ class TunnelDryer(CellDryer):
     cells: Annotated[int, Within(1, 2000)] = 40
 
     limits: ClassVar[Limits] = CellDryer.limits | {
-        "inlet": Limit("gas temperature at the inlet", 303.15, 523.15, "K", TABLE),
-        "capacity": Limit("water evaporated per volume and hour", 1.0, 50.0, "kg/(hour*m^3)", TABLE),
+        "inlet": Limit("gas temperature at the inlet", 303.15, 523.15, "K", TABLE, quiet=True),
+        "capacity": Limit(
+            "water evaporated per volume and hour", 1.0, 50.0, "kg/(hour*m^3)", TABLE, quiet=True
+        ),
         "velocity": Limit("gas velocity over the product", 0.6, 8.0, "m/s", "treybal1980, ch. 12"),
     }
 
@@ -102,7 +104,7 @@ class TunnelDryer(CellDryer):
         self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, gas) | {
-            "inlet": gas.temperature,
+            "inlet": self.temperature_drying(figures, gas),
             "capacity": self.hourly(figures),
             "velocity": gas.gas_volume_flow / self.free_area,
         }

@@ -58,6 +58,7 @@ NOTHING_TO_DRY = (
     "dryer out."
 )
 # ready four times as soon; small arrays run as fast
+LEAST_EVAPORATION = 1e-6  # kg per hour and m² or m³, below which it is rounding
 PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}
 
 
@@ -261,8 +262,13 @@ class Dryer(Unit):
         return drawn
 
     def hourly(self, figures: DryerFigures) -> Any:
-        """Water evaporated per volume or area and hour, kg."""
-        return figures.evaporation_rate * 3600.0 / self.extent()
+        """Water evaporated per volume or area and hour, kg; none where a dry solid is cooled or heated."""
+        rate = figures.evaporation_rate * 3600.0 / self.extent()
+        return jnp.where(jnp.abs(rate) < LEAST_EVAPORATION, 0.0, rate)
+
+    def temperature_drying(self, figures: DryerFigures, gas: Stream) -> Any:
+        """Of the gas at the inlet, K; 0 where nothing is dried."""
+        return jnp.where(self.hourly(figures) == 0.0, 0.0, gas.temperature)
 
 
 class CellDryer(Dryer):
