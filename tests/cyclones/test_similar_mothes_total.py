@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from tests.sharing.places import EXAMPLES
 
 from granum.cases import read
+from granum.cases.reading import read_text
 from granum.core.errors import ApplicabilityError, InputError
 from granum.cyclones.charts import cyclone_distributions_chart
 from granum.cyclones.drawing import cyclone_drawing
@@ -118,6 +119,28 @@ def test_wear() -> None:
     # fine dust, by hand: St = 2 τ v/D = 3.21e-4, wear c m v²/(4p)·2 St²
     St = 2 * 2600e-12 / (18 * 1.8e-5) * 20.0
     assert found[0] == pytest.approx(0.1 * 0.5 * 400 / 4.8e9 * 2 * St**2, rel=2e-3)
+
+
+def test_hardness_of_minerals() -> None:
+    # Vickers: orthoclase 6.87, quartz 12.2 GPa (Broz and others, recalled); between them in proportion
+    found = np.asarray(erosion.indentation_hardness_mohs(np.array([6.0, 6.5, 7.0])))
+    assert found[[0, 2]] == pytest.approx([6.87e9, 12.2e9])
+    assert found[1] == pytest.approx(np.sqrt(found[0] * found[2]))
+    assert np.all(np.diff(np.asarray(erosion.indentation_hardness_mohs(np.linspace(1.0, 9.0, 99)))) > 0.0)
+
+
+@pytest.mark.parametrize(("solid", "wears"), [("quartz", True), ("talc", False), ("cellulose", None)])
+def test_a_wall_is_worn_by_what_is_harder(solid: str, wears: bool | None) -> None:
+    """Mild steel, 1.2 GPa, between talc (1 on Mohs' scale) and quartz (7); nobody knows of polymers."""
+    text = (EXAMPLES / "cyclone" / "pair.toml").read_text(encoding="utf-8").replace("quartz", solid)
+    run = read_text(text.replace('wall_hardness = "6 GPa"', "")).solve()
+    figures = run.units["first"].values
+    if wears is None:
+        assert figures.wear_velocity is None
+    else:
+        assert (float(figures.wear_velocity) > 0.0) is wears
+    told = [check.name for check in run.units["first"].checks]
+    assert ("wear of the wall in a year of operation" in told) is bool(wears)
 
 
 def test_sizing_for_a_total_efficiency() -> None:

@@ -33,6 +33,7 @@ from granum.cyclones.formulas.efficiency import (
     vortex_exponent_alexander as vortex_exponent_alexander,
 )
 from granum.cyclones.formulas.erosion import (
+    indentation_hardness_mohs as indentation_hardness_mohs,
     wear_velocity_cyclone_inlet as wear_velocity_cyclone_inlet,
     wear_velocity_finnie as wear_velocity_finnie,
 )

@@ -75,8 +75,8 @@ def inerted(mixture: Mixture) -> bool:
     """Whether a gas that does not burn and brings no oxygen carries the vapor, so that the lack of oxygen is
     what keeps it safe.
     """
-    humid = HumidMixture(mixture)
-    others = [gas.name for gas in mixture.gases if gas.name != humid.solvent and gas.name not in OXYGEN]
+    vapor = mixture.liquids[0].name if mixture.liquids else ""
+    others = [gas.name for gas in mixture.gases if gas.name not in (vapor, *OXYGEN)]
     return any(mixture.materials.fluid(name).combustion is None for name in others)
 
 

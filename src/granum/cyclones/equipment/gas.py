@@ -4,6 +4,7 @@ checks.
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
@@ -26,9 +27,10 @@ from granum.cyclones.formulas.efficiency import (
     cyclone_efficiency_muschelknautz,
     limit_loading_muschelknautz,
 )
-from granum.cyclones.formulas.erosion import wear_velocity_cyclone_inlet
+from granum.cyclones.formulas.erosion import indentation_hardness_mohs, wear_velocity_cyclone_inlet
 from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_velocity_kalen_zenz
 from granum.cyclones.geometry import Dimensions, StandardCyclone
+from granum.materials.library import Library
 from granum.numerics.smooth import safe_divide
 from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vented
 from granum.streams.stream import Stream, median_of
@@ -38,6 +40,7 @@ from granum.streams.utilities import FANNED, fanned
 LEAST = 1e-9
 MILD_STEEL = 1.2e9  # Pa, flow stress near the Vickers hardness
 YEAR, ALLOWANCE = 8000.0 * 3600.0, 3.0  # s of operation, and mm of steel worn off in them
+HARDER = 1.2  # times as hard as the wall is a grain that wears it
 OWN_LIMIT = "finnie1960, the wear only: the limit of 3 mm a year is our own choice"
 
 
@@ -58,7 +61,7 @@ class CycloneFigures(NamedTuple):
     saltation_velocity: Speed
     dust_loading: MassRatio
     limit_loading: MassRatio
-    wear_velocity: Speed
+    wear_velocity: Speed | None  # of dust whose hardness is known
 
 
 class Swirl(NamedTuple):
@@ -78,15 +81,21 @@ class Swirl(NamedTuple):
     grade: Any
 
 
+def _mohs_hardness(materials: Library, solid: str) -> float:
+    return materials.solid(solid).mohs_hardness if solid in materials.names("solid") else math.nan
+
+
 @equipment("gas_cyclone", source="hoffmann2008; muschelknautz1972; stairmand1949", title="Gas cyclone")
 class GasCyclone(Unit):
     """One or several equal cyclones in parallel: a grade efficiency for every size class, and the overload
     that falls out at the inlet.
 
-    What the swirl cannot carry (Muschelknautz' limit loading) is collected whatever its size; the rest by the
-    grade efficiency. Liquid travels with the dust. The pressure drop is taken from the gas. In series:
-    connect the gas of one to the feed of the next. The wear is that of a ductile wall of the given hardness,
-    in its order of magnitude. An ``explosion_vent`` is that of one cyclone.
+    What the swirl cannot carry (Muschelknautz' limit loading) is collected whatever its size; the rest by
+    the grade efficiency. Liquid travels with the dust. The pressure drop is taken from the gas. In
+    series: connect the gas of one to the feed of the next. The wear is that of a ductile wall of the
+    given hardness by solids that are harder, in its order of magnitude, and not told where no solid has a
+    ``mohs_hardness`` in its material; grains less than 1.2 times as hard as the wall (Hutchings) do not
+    count. An ``explosion_vent`` is that of one cyclone.
     """
 
     diameter: Length
@@ -100,7 +109,7 @@ class GasCyclone(Unit):
     limits: ClassVar[Limits] = {
         "velocity": Limit("inlet velocity", 10.0, 27.0, "m/s", "hoffmann2008"),
         "saltation": Limit("inlet velocity over saltation velocity", 0.8, 1.36, "dimensionless", "kalen1974"),
-        "wear": Limit("wear of the wall in a year of operation", 0.0, ALLOWANCE, "mm", OWN_LIMIT),
+        "wear": Limit("wear of the wall in a year of operation", 0.0, ALLOWANCE, "mm", OWN_LIMIT, quiet=True),
     } | (EXPLOSIBLE | VENTED)
 
     utilities: ClassVar[Utilities] = FANNED
@@ -128,9 +137,14 @@ class GasCyclone(Unit):
         flux = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim))) / (
             self.parallel_number * shape.inlet_height * shape.inlet_width
         )
-        wear = wear_velocity_cyclone_inlet(
+        mohs = [_mohs_hardness(m.materials, s.name) for s in m.solids]
+        worn = wear_velocity_cyclone_inlet(
             velocity, flux, self.diameter, shape.inlet_width, size, each, viscosity, self.wall_hardness
         )
+        known = ~jnp.isnan(jnp.asarray(mohs))
+        hardness = indentation_hardness_mohs(jnp.clip(jnp.where(known, jnp.asarray(mohs), 1.0), 1.0, 9.0))
+        wears = known & (hardness >= HARDER * self.wall_hardness)
+        wear = jnp.sum(jnp.where(wears[:, None], worn, 0.0)) if not all(map(math.isnan, mohs)) else None
         return Swirl(
             velocity,
             cut,
@@ -138,7 +152,7 @@ class GasCyclone(Unit):
             limit_loading_muschelknautz(jnp.maximum(loading, LEAST), cut, median),
             self.inlet_heads(*shape) * 0.5 * density * velocity**2,
             saltation,
-            jnp.sum(wear),
+            wear,
             self.cyclone_efficiency(size, flow, each, density, viscosity, *shape),
         )
 
@@ -175,7 +189,7 @@ class GasCyclone(Unit):
             | {
                 "velocity": inside.velocity,
                 "saltation": inside.velocity / inside.saltation,
-                "wear": 1e3 * YEAR * inside.wear,
+                "wear": 0.0 if inside.wear is None else 1e3 * YEAR * inside.wear,
             }
         )
 

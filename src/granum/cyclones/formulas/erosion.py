@@ -14,11 +14,16 @@ from granum.core.kinds import (
     Fraction,
     Length,
     MassFlux,
+    PositiveNumber,
     Pressure,
     Speed,
     Within,
 )
 
+MINERALS = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
+"""Talc, gypsum, calcite, fluorite, apatite, orthoclase, quartz, topaz, corundum on Mohs' scale."""
+HARDNESSES = (0.14e9, 0.61e9, 1.49e9, 2.0e9, 5.43e9, 6.87e9, 12.2e9, 17.6e9, 19.6e9)
+"""Their Vickers hardnesses after Broz and others, Pa, recalled."""
 WORST = 0.6155  # radian, where sin α cos² α is greatest
 
 
@@ -114,3 +119,18 @@ def wear_velocity_cyclone_inlet(
     steepest = jnp.minimum(striking_angle(diameter, inlet_width), WORST)
     angle = jnp.minimum(jnp.arctan(2.0 * relaxation * velocity / diameter), steepest)
     return wear_velocity_finnie(velocity, mass_flux * jnp.sin(angle), angle, wall_hardness, cutting_share)
+
+
+@formula(
+    source="broz2006",
+    title="Hardness of a mineral from Mohs' scale",
+    equation=r"\ln H = \ln H_i + (M - M_i)\,\ln\frac{H_{i+1}}{H_i}",
+    typical={"mohs_hardness": (1.0, 9.0)},
+)
+def indentation_hardness_mohs(mohs_hardness: Annotated[PositiveNumber, Within(1.0, 9.0)]) -> Pressure:
+    """Indentation hardness of a mineral, between those measured on Mohs' minerals.
+
+    >>> round(indentation_hardness_mohs(7.0) / 1e9, 1)
+    12.2
+    """
+    return jnp.exp(jnp.interp(mohs_hardness, jnp.asarray(MINERALS), jnp.log(jnp.asarray(HARDNESSES))))
