@@ -12,7 +12,7 @@ from granum.core import unit_names, units
 from granum.core.errors import InputError, UnitError
 from granum.core.i18n import language
 from granum.core.kinds import KINDS
-from granum.particles import reynolds_number
+from granum.particles import reynolds_number, terminal_velocity
 
 
 @pytest.mark.parametrize(
@@ -270,3 +270,16 @@ def test_what_is_printed_takes_no_pint(monkeypatch: pytest.MonkeyPatch) -> None:
     for kind in KINDS.values():
         for unit in (*kind.units, *units.FIELD.get(kind.unit, ())):
             assert np.isfinite(units.from_si(1.0, unit, kind))
+
+
+def test_a_kinematic_viscosity_stands_for_a_dynamic_one():
+    # ν of water at 20 °C is 1.0034 mm²/s, η 1.0016 mPa s (IAPWS R12-08, table 3 with the density 998.2)
+    grain = {"particle_diameter": "100 um", "particle_density": 2650, "fluid_density": 998.2}
+    right = terminal_velocity(**grain, dynamic_viscosity="1.0016 mPa s")
+    assert terminal_velocity(**grain, kinematic_viscosity="1.0034 cSt") == pytest.approx(right, rel=1e-4)
+    found = terminal_velocity.evaluate(**grain, dynamic_viscosity="1.0034 mm2/s")
+    assert float(found.value) == pytest.approx(right, rel=1e-4)
+    with pytest.raises(InputError, match="fluid_density"):
+        terminal_velocity(particle_diameter="1 mm", particle_density=2650, kinematic_viscosity="1 cSt")
+    with pytest.raises(InputError, match="twice"):
+        terminal_velocity(**grain, dynamic_viscosity="1 cP", kinematic_viscosity="1 cSt")

@@ -193,6 +193,16 @@ def has_unit(text: str) -> bool:
     return re.search(r"[^\W\d_]|[°%]", re.sub(r"(?<=\d)[eE](?=[+-]?\d)", "", text)) is not None
 
 
+def in_unit_of(text: str, unit: str) -> bool:
+    """Whether text is a number in a unit that measures the same sort of quantity.
+
+    >>> in_unit_of("500 cSt", "m^2/s"), in_unit_of("500 cP", "m^2/s")
+    (True, False)
+    """
+    number = read_number(text)
+    return bool(number and number[1].strip()) and fits(number[1], unit)
+
+
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     """SI values of a list in one string: ``"2 4 8 um"``, ``"[1.5; 2.5] bar"`` or ``"2 mm, 850 um"``; a value
     without a unit takes the next one's.
