@@ -130,7 +130,7 @@ _SPELLINGS = {
     "m²K": "m2*K",
     "kgK": "kg*K",
 }
-# what Pint takes for something else, read so where that does not fit: cp is a cup, mD a millidebye, PS petasiemens
+# what Pint takes for something else (cp for a cup, mD for a millidebye), read so where that does not fit
 ELSE = {
     "cp": "cP",
     "cps": "cP",
@@ -162,8 +162,8 @@ def parse_unit(text: str) -> Any:
     if re.search(r"\bM(Btu|BTU|lbm?|ft3|ft\^3|cf)\b", spelled):
         raise UnitError(
             _(
-                "In unit '{unit}' M means a thousand to some and a million to others: write k for a thousand, "
-                "a power of ten before the unit for a million."
+                "In unit '{unit}' M means a thousand to some and a million to others: write k for a "
+                "thousand, a power of ten before the unit for a million."
             ).format(unit=text),
             unit=text,
         )
