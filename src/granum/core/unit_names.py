@@ -203,6 +203,15 @@ def same_by_pint(unit: str, kind_unit: str) -> bool:
     return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
 
 
+def is_unit(text: str) -> bool:
+    """Whether text is a unit that is known."""
+    try:
+        parse_unit(text)
+    except UnitError:
+        return False
+    return True
+
+
 def fits(unit: str, kind_unit: str) -> bool:
     """Whether a unit is known and measures the same sort of quantity."""
     try:
