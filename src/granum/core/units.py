@@ -200,7 +200,7 @@ def in_unit_of(text: str, unit: str) -> bool:
     (True, False)
     """
     number = read_number(text)
-    return bool(number and number[1].strip()) and fits(number[1], unit)
+    return number is not None and bool(number[1].strip()) and fits(number[1], unit)
 
 
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:

@@ -31,7 +31,7 @@ _DECIMAL = {
     ".": re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?"),
 }
 _WHOLE = re.compile(r"[+-]?[1-9]\d{0,2}")
-_RESTS = ("pan", "bottom", "rest", "fond", "fond_de_tamis", "reste")  # of a stack of sieves, below the finest
+_RESTS = ("pan", "bottom", "rest", "fond", "fond_de_tamis")  # of a stack of sieves, below the finest
 # in a first cell: no comment, but no number
 _SHEET_ERRORS = ("#N/A", "#DIV/0!", "#REF!", "#VALUE!", "#NUM!", "#NAME?", "#NULL!")
 MOST_ROWS = 20_000  # of a workbook, which is read cell by cell

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import jax.numpy as jnp
+
 from granum.core import formula, impossible
 from granum.core.kinds import Density, Fraction, PositiveNumber
 
@@ -20,7 +22,7 @@ class TappedPowder(NamedTuple):
 @formula(
     source="carr1965; usp1174, table 2",
     equation=r"H = \frac{\rho_t}{\rho_b},\quad C = \frac{\rho_t - \rho_b}{\rho_t}",
-    typical={"bulk_density": (200.0, 1200.0)},
+    typical={"bulk_density": (200.0, 600.0), "tapped_density": (650.0, 1000.0)},
     title="Hausner ratio and Carr's compressibility index",
 )
 def hausner_ratio(bulk_density: Density, tapped_density: Density) -> TappedPowder:
@@ -34,5 +36,6 @@ def hausner_ratio(bulk_density: Density, tapped_density: Density) -> TappedPowde
     1.18
     """
     denser = tapped_density >= bulk_density
-    impossible(~denser, tapped_density, "tapped_density", bulk_density, float("inf"), LOOSER)
-    return TappedPowder(tapped_density / bulk_density, 1.0 - bulk_density / tapped_density)
+    impossible(~denser, tapped_density, "tapped_density", bulk_density, jnp.inf, LOOSER)
+    ratio = jnp.where(denser, tapped_density / bulk_density, jnp.nan)
+    return TappedPowder(ratio, 1.0 - 1.0 / ratio)
