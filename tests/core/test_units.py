@@ -12,7 +12,7 @@ from granum.core import unit_names, units
 from granum.core.errors import InputError, UnitError
 from granum.core.i18n import language
 from granum.core.kinds import KINDS
-from granum.particles import reynolds_number
+from granum.particles import reynolds_number, terminal_velocity
 
 
 @pytest.mark.parametrize(
@@ -58,6 +58,15 @@ from granum.particles import reynolds_number
         ("77 F", "Temperature", 298.15),
         ("25 C", "Temperature", 298.15),
         ("1/8 in", "Length", 0.003175),
+        ("1 acfm", "VolumeFlow", 0.028316846592 / 60),
+        ("1 mtpd", "MassFlow", 1000 / 86400),
+        ("1 cp", "DynamicViscosity", 1e-3),
+        ("1 mD", "Permeability", 9.869232667160130e-16),
+        ("1 mil", "Length", 25.4e-6),
+        ("8 gal/1000 ft3", "Ratio", 8 * 231 * 0.0254**3 / 28.316846592),
+        ("8 gal/kft3", "Ratio", 8 * 231 * 0.0254**3 / 28.316846592),
+        ("1 kJ/kgK", "HeatCapacity", 1000.0),
+        ("1 ch", "Power", 735.49875),
         ("1/3", "VolumeFraction", 1 / 3),
         ("2 1/m", "SpecificSurface", 2.0),
         ("2 /m", "SpecificSurface", 2.0),
@@ -261,3 +270,16 @@ def test_what_is_printed_takes_no_pint(monkeypatch: pytest.MonkeyPatch) -> None:
     for kind in KINDS.values():
         for unit in (*kind.units, *units.FIELD.get(kind.unit, ())):
             assert np.isfinite(units.from_si(1.0, unit, kind))
+
+
+def test_a_kinematic_viscosity_stands_for_a_dynamic_one():
+    # ν of water at 20 °C is 1.0034 mm²/s, η 1.0016 mPa s (IAPWS R12-08, table 3 with the density 998.2)
+    grain = {"particle_diameter": "100 um", "particle_density": 2650, "fluid_density": 998.2}
+    right = terminal_velocity(**grain, dynamic_viscosity="1.0016 mPa s")
+    assert terminal_velocity(**grain, kinematic_viscosity="1.0034 cSt") == pytest.approx(right, rel=1e-4)
+    found = terminal_velocity.evaluate(**grain, dynamic_viscosity="1.0034 mm2/s")
+    assert float(found.value) == pytest.approx(right, rel=1e-4)
+    with pytest.raises(InputError, match="fluid_density"):
+        terminal_velocity(particle_diameter="1 mm", particle_density=2650, kinematic_viscosity="1 cSt")
+    with pytest.raises(InputError, match="twice"):
+        terminal_velocity(**grain, dynamic_viscosity="1 cP", kinematic_viscosity="1 cSt")

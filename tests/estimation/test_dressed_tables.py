@@ -17,6 +17,7 @@ from granum.drying.lab_tests.isotherm import IsothermTest
 from granum.estimation import read_table
 from granum.estimation.tables import as_csv
 from granum.filtration.lab_tests.leaf_test import LeafTest
+from granum.particles.lab_tests.sieve_analysis import SieveAnalysis
 
 FILES = max(300, SAMPLES)
 COLUMNS = [p for p in LeafTest.card.parameters if p.series]
@@ -161,3 +162,29 @@ def test_one_column_without_a_unit_keeps_its_name() -> None:
         0.1,
         0.3,
     ]
+
+
+def test_a_laboratory_sheet_names_its_columns_by_symbols_or_parts(tmp_path):
+    # Geankoplis (2003), example 14.2-1: 1.863e11 m/kg
+    sheet = tmp_path / "leaf.csv"
+    times = ["4.4", "9.5", "16.3", "24.6", "34.7", "46.1", "59", "73.6", "89.4", "107.3"]
+    volumes = [".498", "1.0", "1.501", "2.0", "2.498", "3.002", "3.506", "4.004", "4.502", "5.009"]
+    body = "\n".join(f"{t},{v}" for t, v in zip(times, volumes, strict=True))
+    leaf = {
+        "area": "439 cm2",
+        "pressure_drop": "338 kPa",
+        "dynamic_viscosity": "0.8937 cP",
+        "dry_cake_per_filtrate": 23.47,
+    }
+    for header in ("t,V\ns,L", "Time (s),Volume (L)", "t / s,V / L", "time s,filtrate volume L"):
+        sheet.write_text(f"{header}\n{body}\n")
+        found = LeafTest.read(sheet, **leaf).fit()
+        assert float(found.values["cake_resistance"]) == pytest.approx(1.863e11, rel=0.005)
+
+
+@pytest.mark.parametrize("pan", ["0", "pan", "fond"])
+def test_what_a_sieve_sheet_says_of_the_pan_is_no_sieve(tmp_path, pan):
+    sheet = tmp_path / "sieves.csv"
+    sheet.write_text(f"aperture (mm),mass retained (%)\n0.5,0\n0.25,60\n0.125,30\n{pan},10\n")
+    found = SieveAnalysis.read(sheet).distribution().fractions
+    assert [round(float(share), 9) for share in found] == [0.1, 0.3, 0.6]

@@ -68,3 +68,22 @@ def test_water_in_air() -> None:
     )
     assert m.gas_vapor("toluene", "nitrogen").lewis_number("25 degC") > 2.0
     assert pair.diffusivity(300.0, "2 bar") == pytest.approx(pair.diffusivity(300.0, "1 bar") / 2)
+
+
+@pytest.mark.parametrize(
+    ("gas", "density", "viscosity", "conductivity", "heat_capacity"),
+    [  # Incropera and DeWitt, table A.4 (1 atm, 300 K), as remembered; argon and methane: NIST
+        ("carbon dioxide", 1.773, 14.9e-6, 16.55e-3, 851),
+        ("oxygen", 1.284, 20.72e-6, 26.8e-3, 920),
+        ("argon", 1.623, 22.74e-6, 17.7e-3, 520),
+        ("helium", 0.1625, 19.9e-6, 152e-3, 5193),
+        ("methane", 0.651, 11.1e-6, 34.2e-3, 2232),
+        ("hydrogen", 0.08078, 8.96e-6, 183e-3, 14310),
+    ],
+)
+def test_other_gases(gas, density, viscosity, conductivity, heat_capacity) -> None:
+    found = m.gas_properties("300 K", "1 atm", gas)
+    assert found.gas_density == pytest.approx(density, rel=0.015)
+    assert found.dynamic_viscosity == pytest.approx(viscosity, rel=0.015)
+    assert found.thermal_conductivity == pytest.approx(conductivity, rel=0.025)
+    assert found.specific_heat_capacity == pytest.approx(heat_capacity, rel=0.01)

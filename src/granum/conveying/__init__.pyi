@@ -16,6 +16,10 @@ from granum.conveying.equipment.thick_slurry import (
     ThickSlurryFigures as ThickSlurryFigures,
     ThickSlurryPipeline as ThickSlurryPipeline,
 )
+from granum.conveying.formulas.flowability import (
+    TappedPowder as TappedPowder,
+    hausner_ratio as hausner_ratio,
+)
 from granum.conveying.formulas.hoppers import (
     WallStresses as WallStresses,
     critical_strength as critical_strength,

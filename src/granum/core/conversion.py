@@ -17,6 +17,7 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.core.kinds import KINDS
 from granum.core.parameters import REQUIRED, Parameter
 
 
@@ -294,6 +295,10 @@ def law_of(family: str, name: str, where: str = "", options: Mapping[str, Any] |
     return FormulaWith(found, tuple(fixed.items()), tuple(numbers), tuple(numbers.values()))
 
 
+_KINEMATIC = KINDS["KinematicViscosity"]
+_DENSITIES = ("fluid_density", "liquid_density", "gas_density")
+
+
 @dataclass(frozen=True)
 class Binder:
     """Matches positional and named arguments to parameters, with near-miss suggestions for unknown names."""
@@ -314,13 +319,56 @@ class Binder:
         origin; explicit values win.
         """
         if "fluid" not in kwargs or "fluid" in self.index:
-            return kwargs, {}
+            return self._with_kinematic(args, kwargs, kwargs, {})
         # the core knows no materials; whoever names one has them
         stated = import_module("granum.materials.stated")
         rest = {name: value for name, value in kwargs.items() if name != "fluid"}
         found, origin = stated.properties(kwargs["fluid"], self.owner, self.parameters[len(args) :], rest)
         origins: dict[str, str] = dict.fromkeys(found, str(origin))
-        return {**rest, **found}, origins
+        return self._with_kinematic(args, kwargs, {**rest, **found}, origins)
+
+    def _with_kinematic(
+        self,
+        args: tuple[Any, ...],
+        typed: Mapping[str, Any],
+        values: Mapping[str, Any],
+        origins: dict[str, str],
+    ) -> tuple[Mapping[str, Any], dict[str, str]]:
+        """The values with a dynamic viscosity in place of a kinematic one, ``kinematic_viscosity`` or a
+        ``dynamic_viscosity`` written in such a unit (500 cSt), by the density among them.
+        """
+        wanted, name = "dynamic_viscosity", "kinematic_viscosity"
+        if wanted not in self.index or name in self.index or self.index[wanted] < len(args):
+            return values, origins
+        if name in typed:
+            given_as = typed[name]
+            if wanted in typed:
+                message = _("'{name}' was given twice for {owner}.")
+                raise InputError(message.format(name=wanted, owner=self.owner), name=name)
+        elif isinstance(typed.get(wanted), str) and units.in_unit_of(typed[wanted], _KINEMATIC.unit):
+            given_as = typed[wanted]
+        else:
+            return values, origins
+        density = next((n for n in _DENSITIES if n in self.index), None)
+        if density is None:
+            message = _(
+                "{owner} asks for no density: give 'dynamic_viscosity', which is density times '{name}'."
+            )
+            raise InputError(message.format(owner=self.owner, name=name), name=name)
+        place = self.index[density]
+        known = args[place] if place < len(args) else values.get(density, self.parameters[place].default)
+        if known is REQUIRED or known is None:
+            message = _("'{name}' needs '{density}' beside it: the dynamic viscosity is their product.")
+            raise InputError(message.format(name=name, density=density), name=density)
+        if isinstance(given_as, str):
+            kinematic = units.read_quantity(given_as, _KINEMATIC, name)
+        elif given.is_quantity(given_as):
+            kinematic = units.quantity_to_si(given_as, _KINEMATIC, name)
+        else:
+            kinematic = given_as
+        product = kinematic * convert(known, self.parameters[place], several=True)
+        rest = {n: v for n, v in values.items() if n != name}
+        return {**rest, wanted: product}, {**origins, wanted: _("kinematic viscosity times density")}
 
     def left_out(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> frozenset[str]:
         """Names that were not given and have a default other than nothing."""

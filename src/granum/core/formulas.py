@@ -387,7 +387,7 @@ class Formula(Generic[P, R]):
     def __call__(self, *args: Any, fluid: Any, **kwargs: Any) -> R: ...
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        if "fluid" in kwargs:
+        if _BY_FLUID.intersection(kwargs) or isinstance(kwargs.get("dynamic_viscosity"), str):
             kwargs = dict(self._binder.with_fluid(args, kwargs)[0])
         nested = flags.nested()
         heard = flags.listening()
@@ -468,6 +468,7 @@ class Formula(Generic[P, R]):
 
 Formula.__doc__ = CompletedDoc(Formula.__doc__, of_instances=True)  # type: ignore[assignment]
 
+_BY_FLUID = {"fluid", "kinematic_viscosity"}  # names of inputs that stand for others
 _DYNAMIC = type("_Dynamic", (), {"__repr__": lambda self: "dynamic"})()
 
 

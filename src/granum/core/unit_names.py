@@ -48,9 +48,30 @@ def _registry() -> Any:
         "gpd = gallon / day",
         "mgd = 1e6 * gallon / day = MGD",
         "cfs = foot ** 3 / second",
-        "cfm = foot ** 3 / minute",
-        "HP = horsepower",
+        "cfm = foot ** 3 / minute = CFM",
+        "acfm = cfm = ACFM",  # named, or else Pint reads it as a prefix: atto-cfm
+        "cfh = foot ** 3 / hour",
+        "gph = gallon / hour",
+        "gfd = gallon / foot ** 2 / day",
+        "fpm = foot / minute",
+        "lpm = liter / minute = LPM",
+        "@alias gpm = GPM",
+        "igpm = imperial_gallon / minute",
+        "kcf = 1000 * foot ** 3",
+        "pcf = pound / foot ** 3",
+        "ppg = pound / gallon",
+        "psf = pound_force / foot ** 2",
+        "MMBtu = 1e6 * Btu = MMBTU",
+        "MMlb = 1e6 * pound",
+        "mCE = meter_H2O",
+        "HP = horsepower = bhp",
         "tph = tonne / hour",
+        "tpd = tonne / day",
+        "mtpd = tonne / day = MTPD",
+        "mtph = tonne / hour = MTPH",
+        "stpd = short_ton / day = STPD",
+        "stph = short_ton / hour = STPH",
+        "@alias rpm = RPM",
         "USD = [currency] = dollar",
     ):
         ureg.define(line)
@@ -83,6 +104,12 @@ _SPELLINGS = {
     "mm H2O": "mmH2O",
     "mm WC": "mmH2O",
     "mm water": "mmH2O",
+    "in. w.g.": "inH2O",
+    "in. W.C.": "inH2O",
+    "in. w.c.": "inH2O",
+    "in water": "inH2O",
+    "ft water": "ftH2O",
+    "mmCE": "mmH2O",
     "in. Hg": "inHg",
     "in Hg": "inHg",
     "mm Hg": "mmHg",
@@ -91,6 +118,34 @@ _SPELLINGS = {
     "short ton": "short_ton",
     "long ton": "long_ton",
     "metric ton": "tonne",
+    "cu. ft": "ft^3",
+    "cu ft": "ft^3",
+    "cuft": "ft^3",
+    "sq. ft": "ft^2",
+    "sq ft": "ft^2",
+    "sqft": "ft^2",
+    "kft3": "kcf",
+    "ft-lb": "ft*lb",
+    "m2K": "m2*K",
+    "m²K": "m2*K",
+    "kgK": "kg*K",
+}
+# what Pint takes for something else (cp for a cup, mD for a millidebye), read so where that does not fit
+ELSE = {
+    "cp": "cP",
+    "cps": "cP",
+    "cst": "cSt",
+    "D": "darcy",
+    "mD": "millidarcy",
+    "md": "millidarcy",
+    "mil": "thou",
+    "mils": "thou",
+    "A": "angstrom",
+    "mb": "mbar",
+    "ata": "at",
+    "CV": "metric_horsepower",
+    "ch": "metric_horsepower",
+    "PS": "metric_horsepower",
 }
 # read so only where a temperature is due
 DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}
@@ -104,7 +159,19 @@ def parse_unit(text: str) -> Any:
         raise UnitError(_("Unit '{unit}…' is too long to be a unit.").format(unit=spelled[:LONGEST_UNIT]))
     for written, meant in _SPELLINGS.items():
         spelled = spelled.replace(written, meant)
+    if re.search(r"\bM(Btu|BTU|lbm?|ft3|ft\^3|cf)\b", spelled):
+        raise UnitError(
+            _(
+                "In unit '{unit}' M means a thousand to some and a million to others: write k for a "
+                "thousand, a power of ten before the unit for a million."
+            ).format(unit=text),
+            unit=text,
+        )
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
+    # gal/1000 ft3, lb per 1000 gal
+    spelled = re.sub(
+        r"\s*(?:/|\bper\b)\s*\(?\s*1000\s*([A-Za-z]+[23]?(?:\^[23])?)\s*\)?$", r"/\1*permille", spelled
+    )
     spelled = re.sub(r"^/(?=\s*[^\W\d])", "1/", spelled)  # /m, /min
     # g/100 g of water, g per 100 g, g/(100 g)
     spelled = re.sub(
@@ -134,6 +201,15 @@ def same_dimension(unit: str, kind_unit: str) -> bool:
 def same_by_pint(unit: str, kind_unit: str) -> bool:
     """The same, whatever the units."""
     return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
+
+
+def is_unit(text: str) -> bool:
+    """Whether text is a unit that is known."""
+    try:
+        parse_unit(text)
+    except UnitError:
+        return False
+    return True
 
 
 def fits(unit: str, kind_unit: str) -> bool:

@@ -18,7 +18,7 @@ from granum.core.errors import InputError, UnitError
 from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.kinds import Kind
-from granum.core.unit_names import DEGREES, LONGEST_UNIT, fits, parse_unit, registry, same_dimension
+from granum.core.unit_names import DEGREES, ELSE, LONGEST_UNIT, fits, parse_unit, registry, same_dimension
 from granum.core.unit_table import counts_angles, rows
 from granum.core.written import apart, mixed, read_number, tidy
 
@@ -43,6 +43,8 @@ def affine_by_pint(unit: str, kind_unit: str) -> tuple[float, float]:
             re.sub(r"\b(lb|kg)\b", r"\1f", unit),
         )
         meant = [text for text in readings if below and text != unit and fits(text, kind_unit)]
+        other = re.sub(r"[A-Za-z]+", lambda word: ELSE.get(word[0], word[0]), unit)
+        meant += [other] if other != unit and fits(other, kind_unit) else []
         if not meant:
             parse_unit(unit)  # says so where the unit itself is not known
             raise UnitError("dimension")
@@ -189,6 +191,16 @@ def has_unit(text: str) -> bool:
     (True, True, False)
     """
     return re.search(r"[^\W\d_]|[°%]", re.sub(r"(?<=\d)[eE](?=[+-]?\d)", "", text)) is not None
+
+
+def in_unit_of(text: str, unit: str) -> bool:
+    """Whether text is a number in a unit that measures the same sort of quantity.
+
+    >>> in_unit_of("500 cSt", "m^2/s"), in_unit_of("500 cP", "m^2/s")
+    (True, False)
+    """
+    number = read_number(text)
+    return number is not None and bool(number[1].strip()) and fits(number[1], unit)
 
 
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:

@@ -36,6 +36,7 @@ class LabTest(eqx.Module):
     estimates: ClassVar[Mapping[str, Any]]
     axes: ClassVar[Mapping[str, Any]]
     least_points: ClassVar[int] = 3
+    rest: ClassVar[tuple[str, str, str] | None] = None  # of `read_table`
     holds_for: ClassVar[tuple[str, ...]] = ()
     origins: tuple[tuple[str, str], ...] = eqx.field(
         default=(), init=False, static=True, repr=False, kw_only=True
@@ -49,7 +50,7 @@ class LabTest(eqx.Module):
         The header of the file names columns with units in any order: ``time [min],filtrate_volume [L]``.
         """
         columns = [p for p in cls.card.parameters if p.series]
-        return cls(**read_table(path, columns), **conditions)
+        return cls(**{**read_table(path, columns, cls.rest), **conditions})
 
     def __check_init__(self) -> None:
         card = type(self).card

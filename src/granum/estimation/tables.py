@@ -20,6 +20,7 @@ from granum.core.errors import InputError, nearest, reason_of
 from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
+from granum.core.unit_names import fits, is_unit
 from granum.core.units import to_si
 from granum.core.written import read_number
 
@@ -30,6 +31,7 @@ _DECIMAL = {
     ".": re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?"),
 }
 _WHOLE = re.compile(r"[+-]?[1-9]\d{0,2}")
+_RESTS = ("pan", "bottom", "rest", "fond", "fond_de_tamis")  # of a stack of sieves, below the finest
 # in a first cell: no comment, but no number
 _SHEET_ERRORS = ("#N/A", "#DIV/0!", "#REF!", "#VALUE!", "#NUM!", "#NAME?", "#NULL!")
 MOST_ROWS = 20_000  # of a workbook, which is read cell by cell
@@ -38,12 +40,16 @@ Row = tuple[int, list[Any]]
 Source = str | Path | IO[Any]
 
 
-def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.ndarray]:
+def read_table(
+    source: Source, columns: Iterable[Parameter], rest: tuple[str, str, str] | None = None
+) -> dict[str, Any]:
     """The columns of a data file as SI arrays by name; other columns of the file are ignored.
 
-    The header names each column and its unit: ``time [min]``, ``filtrate_volume (L)`` or ``time / s``. Lines
-    that start with ``#`` are comments, and lines of one cell above the header are titles. Missing optional
-    columns are left out.
+    The header names each column and its unit: ``time [min]``, ``filtrate_volume (L)`` or ``time / s``, or the
+    units stand in a line of their own below. Lines that start with ``#`` are comments, and lines of one cell
+    above the header are titles. Missing optional columns are left out. ``rest`` tells of a last row for what
+    has no value in a column (below the finest sieve): that column, the one that says how much, in % if need
+    be, and the name under which it is given.
     """
     where = _(" in {file}").format(file=getattr(source, "name", source))
     rows = list(_rows(source, where))
@@ -73,10 +79,24 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
                 ).format(line=line, count=len(row), expected=named, where=where),
                 line=line,
             )
-    found: dict[str, np.ndarray] = {}
+    if below := _units_below(body[0][1], places, units):
+        units |= below
+        body = body[1:]
+    found: dict[str, Any] = {}
     columns = list(columns)
-    for alias, name in _named_otherwise(columns, places).items():
-        places[name], units[name] = places.pop(alias), units.pop(alias)
+    for alias, (name, unit) in _named_otherwise(columns, places, units).items():
+        places[name], units[name] = places.pop(alias), unit
+        units.pop(alias, None) if alias != name else None
+    if rest and rest[0] in places and rest[1] in places and body[1:]:
+        if units[rest[1]] in ("%", "percent", "wt%", "wt.%"):
+            units[rest[1]] = next(p.units[0] for p in columns if p.name == rest[1])
+        line, last = body[-1]
+        cell = last[places[rest[0]]] if places[rest[0]] < len(last) else None
+        if (isinstance(cell, str) and _bare(cell.strip()) in _RESTS) or _number(cell) == 0.0:
+            amount = next(p for p in columns if p.name == rest[1])
+            kept = [(line, last[places[rest[1]]] if places[rest[1]] < len(last) else None)]
+            found[rest[2]] = float(_column(amount, units[rest[1]], kept, where)[0])
+            body = body[:-1]
     asked = [places[p.name] for p in columns if p.name in places]
     texts = [row[k] for _line, row in body for k in asked if k < len(row) and isinstance(row[k], str)]
     marks = {mark for mark in ",." if any(_DECIMAL[mark].fullmatch(text) for text in texts)}
@@ -116,15 +136,75 @@ def _bare(text: str) -> str:
     return re.sub(r"[\s\-'’]+", "_", plain)
 
 
-def _named_otherwise(columns: list[Parameter], places: Iterable[str]) -> dict[str, str]:
-    """Headings that are labels of the glossary, with the columns that they mean."""
-    known = {p.name for p in columns}
-    found: dict[str, str] = {}
-    for heading in places:
-        meant = [p.name for p in columns if _bare(heading) in heading_names(p)]
-        if heading not in known and len(meant) == 1 and meant[0] not in (*places, *found.values()):
-            found[heading] = meant[0]
+def _named_otherwise(
+    columns: list[Parameter], places: Iterable[str], units: dict[str, str | None]
+) -> dict[str, tuple[str, str | None]]:
+    """Headings that mean a column by another name, with it and its unit: labels of the glossary, a unit
+    without brackets, the symbol, or a part of the label whose unit fits no other column.
+    """
+    headings, known = list(places), {p.name for p in columns}
+    found: dict[str, tuple[str, str | None]] = {}
+    free = [h for h in headings if h not in known]
+    for means in (_by_label, _by_symbol, _by_part):
+        taken = {*headings, *(name for name, _unit in found.values())}
+        rest = [p for p in columns if p.name not in taken]
+        meant = {
+            h: means(h, units[h], rest) or means(*_unit_behind(h, units[h]), rest)
+            for h in free
+            if h not in found
+        }
+        names = [name for those in meant.values() for name, _unit in those]
+        for heading, those in meant.items():
+            if len(those) == 1 and names.count(those[0][0]) == 1:
+                found[heading] = those[0]
     return found
+
+
+Meant = list[tuple[str, str | None]]
+
+
+def _by_label(heading: str, unit: str | None, columns: list[Parameter]) -> Meant:
+    return [(p.name, unit) for p in columns if _bare(heading) in heading_names(p)]
+
+
+def _unit_behind(heading: str, unit: str | None) -> tuple[str, str | None]:
+    """``height cm``."""
+    name, _mark, last = heading.rpartition("_")
+    return (name, last) if unit is None and name and is_unit(last) else (heading, unit)
+
+
+def _by_symbol(heading: str, unit: str | None, columns: list[Parameter]) -> Meant:
+    """``t (s)``."""
+    return [
+        (p.name, unit)
+        for p in columns
+        if p.term and unit and _fits(unit, p) and heading == re.sub(r"[\\{}^\s]", "", p.term.symbol).lower()
+    ]
+
+
+def _by_part(heading: str, unit: str | None, columns: list[Parameter]) -> Meant:
+    """``volume (L)`` of a filtrate volume."""
+    words = set(_bare(heading).split("_"))
+    return [
+        (p.name, unit)
+        for p in columns
+        if unit and _fits(unit, p) and any(words < set(name.split("_")) for name in heading_names(p))
+    ]
+
+
+def _fits(unit: str, p: Parameter) -> bool:
+    return p.kind is not None and fits(unit, p.kind.unit)
+
+
+def _units_below(cells: list[Any], places: dict[str, int], units: dict[str, str | None]) -> dict[str, str]:
+    """Units in a line of their own below a header that has none."""
+    if any(units.values()):
+        return {}
+    said = {name: str(cells[k]).strip(" []()") for name, k in places.items() if k < len(cells) and cells[k]}
+    written = [text for text in said.values() if text]
+    if not written or any(not np.isnan(_number(text)) or not is_unit(text) for text in written):
+        return {}
+    return {name: text for name, text in said.items() if text}
 
 
 def _no_thousands(

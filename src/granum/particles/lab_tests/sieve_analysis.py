@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -30,6 +30,8 @@ class SieveAnalysis(SizeTest):
     >>> [round(float(f), 3) for f in test.distribution().fractions]
     [0.1, 0.3, 0.6]
     """
+
+    rest: ClassVar = ("aperture", "retained_mass", "pan_mass")
 
     aperture: Annotated[Length, Series("sieves")]
     retained_mass: Annotated[Mass, Series("sieves")]
