@@ -283,3 +283,10 @@ def test_a_kinematic_viscosity_stands_for_a_dynamic_one():
         terminal_velocity(particle_diameter="1 mm", particle_density=2650, kinematic_viscosity="1 cSt")
     with pytest.raises(InputError, match="twice"):
         terminal_velocity(**grain, dynamic_viscosity="1 cP", kinematic_viscosity="1 cSt")
+
+
+@pytest.mark.parametrize("unit", ["ton/h", "tons", "kWh/ton"])
+def test_a_ton_of_two_meanings_is_refused(unit: str) -> None:
+    with pytest.raises(UnitError, match="short_ton"):
+        unit_names.parse_unit(unit)
+    assert unit_names.parse_unit(unit.replace("tons", "ton").replace("ton", "short_ton"))

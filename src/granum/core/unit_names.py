@@ -167,6 +167,14 @@ def parse_unit(text: str) -> Any:
             ).format(unit=text),
             unit=text,
         )
+    if re.search(r"\btons?\b", spelled):
+        raise UnitError(
+            _(
+                "In unit '{unit}' a ton may be 1000 kg or 2000 lb: write t for the one, short_ton for the "
+                "other, long_ton for 2240 lb."
+            ).format(unit=text),
+            unit=text,
+        )
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
     # gal/1000 ft3, lb per 1000 gal
     spelled = re.sub(
