@@ -105,7 +105,7 @@ def test_little_solute_raises_the_boiling_point_by_its_ions(solute):
 @pytest.mark.parametrize(
     ("solute", "humidity", "within"),
     [
-        # over saturated solutions at 25 °C: Greenspan, J. Res. Natl. Bur. Stand. 81A (1977), recalled, not opened
+        # over saturated solutions at 25 °C: Greenspan, J. Res. Natl. Bur. Stand. 81A (1977), recalled
         ("potassium nitrate", 0.936, 0.015),
         ("strontium nitrate", 0.851, 0.01),
         ("potassium bromide", 0.809, 0.01),
@@ -129,7 +129,7 @@ def test_nitrates_boil_near_where_handbooks_have_them(solute, elevation):
 
 
 def test_ions_that_pair():
-    """Magnesium sulfate, 1 and 3 mol/kg at 25 °C: 0.525 and 0.919 in Robinson and Stokes' tables, from memory."""
+    """Magnesium sulfate, 1 and 3 mol/kg at 25 °C: 0.525 and 0.919 of Robinson and Stokes, recalled."""
     system = gr.materials.solute("magnesium sulfate")
     m = np.array([1.0, 3.0])
     activity = system.solvent_activity(298.15, m * system.molar_mass)
@@ -137,8 +137,8 @@ def test_ions_that_pair():
 
 
 def test_every_solute_of_the_library_boils_higher_than_its_solvent():
-    """And says where that is an estimate: only sodium chloride and others with parameters over temperature are
-    silent at 60 °C.
+    """And says where that is an estimate: at 60 °C only sodium chloride and others with parameters over
+    temperature are silent.
     """
     silent = []
     for name in session().names("solute"):

@@ -24,8 +24,8 @@ TOO_COLD = (
     "or more heat."
 )
 DISSOLVES = (
-    "Nothing boils: crystals of the feed dissolve, and that takes more heat than the feed brings. Give a feed "
-    "with more dissolved, a lower temperature or more heat."
+    "Nothing boils: crystals of the feed dissolve, and that takes more heat than the feed brings. Give a "
+    "feed with more dissolved, a lower temperature or more heat."
 )
 LARGEST = "crystals in the largest size class, which takes what is larger"
 SMALLEST = "crystals in the smallest size class, which takes what is smaller"
