@@ -385,3 +385,9 @@ def test_substances_that_the_case_describes_may_be_chosen() -> None:
     assert 'solids = ["PVC"]' in after
     with pytest.raises(InputError, match="'PVG' is not known"):
         b.choose_substances(text, ["water"], ["PVG"], ["dry air", "water"])
+
+
+def test_a_solid_with_the_name_of_what_is_dissolved_is_told_its_crystals() -> None:
+    text = b.new_line("Salt", ["water"], ["quartz"], ["water"])
+    with pytest.raises(InputError, match="'sodium sulfate decahydrate', 'sodium sulfate anhydrous'"):
+        b.choose_substances(text, ["water", "sodium sulfate"], ["sodium sulfate"], ["water"])

@@ -2,6 +2,7 @@
 
 from granum.materials.activities import (
     ElectrolyteActivity as ElectrolyteActivity,
+    IdealActivity as IdealActivity,
     NoActivity as NoActivity,
     SucroseActivity as SucroseActivity,
 )
@@ -23,6 +24,7 @@ from granum.materials.fluids import (
 from granum.materials.formulas.activity import (
     debye_huckel_slope as debye_huckel_slope,
     osmotic_coefficient_pitzer as osmotic_coefficient_pitzer,
+    solvent_activity_raoult as solvent_activity_raoult,
     water_activity_osmotic as water_activity_osmotic,
     water_activity_starzak_peacock as water_activity_starzak_peacock,
 )

@@ -1,7 +1,8 @@
 """Water activity of the solutions of a solute system, so that they boil where they do.
 
 Beyond the most concentrated solution that a source speaks of, the osmotic coefficient (or the activity
-coefficient) keeps its last value: water activity then still falls with every gram of solute.
+coefficient) keeps its last value: water activity then still falls with every gram of solute. It keeps its
+value, too, beyond the temperatures of the source, so that boiling points follow Dühring's rule there.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from granum.materials.formulas.activity import (
     WATER,
     moller_function,
     osmotic_coefficient_pitzer,
+    solvent_activity_raoult,
     water_activity_osmotic,
     water_activity_starzak_peacock,
 )
@@ -25,7 +27,10 @@ SLACK = 0.51  # K: the limits of the source are rounded
 
 
 class ElectrolyteActivity(eqx.Module):
-    """Pitzer's equation for one salt in water, its parameters over temperature as Møller writes them."""
+    """Pitzer's equation for one salt in water, its parameters over temperature as Møller writes them.
+
+    ``most`` is the most concentrated solution behind them, mol per kg of water.
+    """
 
     molar_mass: float
     counts: tuple[float, float] = eqx.field(static=True)
@@ -36,8 +41,8 @@ class ElectrolyteActivity(eqx.Module):
     coldest: float = eqx.field(static=True)
     hottest: float = eqx.field(static=True)
     most: float = eqx.field(static=True)
-    """mol per kg of water, the most concentrated solution behind the parameters."""
     source: str = eqx.field(static=True)
+    beta_two: tuple[float, ...] = eqx.field(static=True, default=(0.0,) * 8)
     is_missing = False
 
     def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
@@ -48,10 +53,11 @@ class ElectrolyteActivity(eqx.Module):
         outside = some & ((cold - SLACK > T) | (hot + SLACK < T))
         flags.record(flags.EXTRAPOLATED, outside, T, "temperature", key, cold, hot, self.source)
         flags.record(flags.EXTRAPOLATED, m > self.most, m, "salt_molality", key, 0.0, self.most, self.source)
-        t = jnp.clip(T, 273.15, 573.15)
-        b0, b1, c = (moller_function(t, a) for a in (self.beta_zero, self.beta_one, self.c_phi))
+        t = jnp.clip(T, cold, hot)
+        sets = (self.beta_zero, self.beta_one, self.c_phi, self.beta_two)
+        b0, b1, c, b2 = (moller_function(t, a) for a in sets)
         within = jnp.clip(m, 0.0, self.most)
-        phi = osmotic_coefficient_pitzer(within, b0, b1, c, t, *self.counts, *self.charges)
+        phi = osmotic_coefficient_pitzer(within, b0, b1, c, t, *self.counts, *self.charges, b2)
         return water_activity_osmotic(m, phi, sum(self.counts))
 
 
@@ -67,6 +73,19 @@ class SucroseActivity(eqx.Module):
         x = moles / (moles + 1.0 / WATER)
         inside = jnp.minimum(x, self.most)
         return water_activity_starzak_peacock(inside, temperature) * (1.0 - x) / (1.0 - inside)
+
+
+class IdealActivity(eqx.Module):
+    """Raoult's law, for a solute that no better source was found for."""
+
+    molar_mass: float
+    molar_mass_solvent: float
+    ions: float = eqx.field(static=True)
+    is_missing = False
+
+    def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        moles = solute_per_solvent / self.molar_mass
+        return solvent_activity_raoult(moles / (moles + 1.0 / self.molar_mass_solvent), self.ions)
 
 
 class NoActivity(eqx.Module):

@@ -20,7 +20,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.unit_table import rows
 from granum.core.units import show
-from granum.materials.activities import ElectrolyteActivity, NoActivity, SucroseActivity
+from granum.materials.activities import ElectrolyteActivity, IdealActivity, NoActivity, SucroseActivity
 from granum.materials.correlation import Correlation, Missing, Owner, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
 from granum.materials.formulas.solutions import (
@@ -328,18 +328,20 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         or NoLaw(Missing(Owner.of_property(key, "viscosity of the solution", entry.fr))),
         heat_capacity_law=heat_capacity,
         solute_heat_capacity=nan,
-        activity_law=_activity(key, entry),
+        activity_law=_activity(key, entry, solvent),
     )
     return _with_enthalpies(system)
 
 
-def _activity(key: str, entry: SoluteEntry) -> Any:
+def _activity(key: str, entry: SoluteEntry, solvent: Fluid) -> Any:
     """The law of water activity of a solute, or what says that there is none."""
     found = entry.water_activity
     if found is None:
         return NoActivity(Missing(Owner.of_property(key, "water activity of the solution", entry.fr)))
     if found.form == "starzak_peacock":
         return SucroseActivity(entry.molar_mass)
+    if found.form == "raoult":
+        return IdealActivity(entry.molar_mass, solvent.molar_mass, float(found.ions))
 
     def eight(a: list[float]) -> tuple[float, ...]:
         return tuple((*a, *[0.0] * 7)[:8])
@@ -351,6 +353,7 @@ def _activity(key: str, entry: SoluteEntry) -> Any:
         beta_zero=eight(found.beta_zero),
         beta_one=eight(found.beta_one),
         c_phi=eight(found.c_phi),
+        beta_two=eight(found.beta_two),
         coldest=found.range[0],
         hottest=found.range[1],
         most=found.molality,

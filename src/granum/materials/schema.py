@@ -164,15 +164,18 @@ class BranchEntry(_Strict):
 
 
 class ActivityEntry(_Strict):
-    """Water activity of the solutions: ``form`` is "pitzer" or "starzak_peacock". Each Pitzer parameter is
-    eight coefficients of Møller's function of temperature, or one number at all temperatures.
+    """Water activity of the solutions: ``form`` is "pitzer", "starzak_peacock" or "raoult". Each Pitzer
+    parameter is eight coefficients of Møller's function of temperature, or one number at all temperatures.
+    Raoult's law takes the ``ions`` of a molecule.
     """
 
-    form: Literal["pitzer", "starzak_peacock"]
+    form: Literal["pitzer", "starzak_peacock", "raoult"]
+    ions: int = Field(default=1, ge=1, le=8)
     counts: tuple[int, int] = (1, 1)
     charges: tuple[int, int] = (1, 1)
     beta_zero: list[float] = []
     beta_one: list[float] = []
+    beta_two: list[float] = [0.0]
     c_phi: list[float] = []
     range: tuple[float, float] = (273.15, 423.15)
     molality: float = Field(default=0.0, ge=0, description="largest, mol per kg of water")
@@ -180,7 +183,7 @@ class ActivityEntry(_Strict):
 
     @model_validator(mode="after")
     def _whole(self) -> ActivityEntry:
-        sets = (self.beta_zero, self.beta_one, self.c_phi)
+        sets = (self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
         if self.form == "pitzer" and (self.molality <= 0.0 or any(len(a) not in (1, 8) for a in sets)):
             raise ValueError(
                 "the form 'pitzer' needs 'beta_zero', 'beta_one' and 'c_phi' of one or eight numbers, "

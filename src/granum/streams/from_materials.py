@@ -72,7 +72,7 @@ def mixture_of(
         _crystal(name, systems)
         or _taken_up(name, dissolved)
         or _sublimed(known, name, gases)
-        or _inert(known, name)
+        or _inert(known, name, systems)
         for name in solids
     ]
     formulas = {name: system.formula for name, system in systems.items()}
@@ -197,17 +197,25 @@ def _sublimed(known: Library, name: str, gases: Iterable[str]) -> Species | None
     if not known.solid(name).sublimes:
         return None
     lower = float(once(partial(_below_vapor, known.solid(name), known.fluid(name)), ROOM))
-    return replace(_inert(known, name), reference_enthalpy=lower)
+    return replace(_inert(known, name, {}), reference_enthalpy=lower)
 
 
 def _below_vapor(solid: Solid, vapor: Fluid, T: Any) -> Any:
     return vapor.vapor_enthalpy(T) - solid.heat_of_sublimation(T) - solid.enthalpy(T)
 
 
-def _inert(known: Library, name: str) -> Species:
+def _inert(known: Library, name: str, systems: Mapping[str, SoluteSystem]) -> Species:
     try:
         known.entry("solid", name)
     except InputError as unknown:
+        if name in systems:
+            crystals = " ".join(f"'{b.crystal.name}'," for b in systems[name].branches).rstrip(",")
+            raise InputError(
+                _(
+                    "'{name}' is dissolved; what crystallizes from it is {crystals}: give one of these."
+                ).format(name=name, crystals=crystals),
+                name=name,
+            ) from None
         raise InputError(
             f"{unknown.message} "
             + _(

@@ -38,7 +38,7 @@ def _reduction(energy: Any, feed_size: Any, product_size: Any) -> Any:
 
 
 @formula(
-    source="rittinger1867; coulson2002, ch. 2",
+    source="rittinger1867; richardson2002, ch. 2",
     equation=r"E = K_R f_c \left(\frac{1}{P} - \frac{1}{F}\right)",
     fitted={"product_size": (0.0, 1e-3)},
 )
@@ -59,7 +59,7 @@ def specific_energy_rittinger(
 
 
 @formula(
-    source="rittinger1867; coulson2002, ch. 2",
+    source="rittinger1867; richardson2002, ch. 2",
     fitted={"specific_surface_product": (6000.0, jnp.inf)},
     equation=r"E = \frac{K\,(a_{g2} - a_{g1})}{\rho_s}",
     title="Specific energy from the new surface (Rittinger)",
@@ -86,7 +86,7 @@ def specific_energy_rittinger_surface(
 
 
 @formula(
-    source="kick1885; coulson2002, ch. 2",
+    source="kick1885; richardson2002, ch. 2",
     equation=r"E = K_K f_c \ln\frac{F}{P}",
     fitted={"product_size": (1e-2, jnp.inf)},
     typical={"feed_size": (0.06, 0.3), "product_size": (0.011, 0.05)},
@@ -300,7 +300,7 @@ def specific_energy_morrell(feed_size: Length, product_size: Length, work_index:
 
 
 @formula(
-    source="coulson2002, ch. 2",
+    source="richardson2002, ch. 2",
     equation=r"P = \dot m\,E",
     title="Power of a crusher or mill",
     output="shaft_power",
@@ -315,7 +315,7 @@ def shaft_power_comminution(mass_flow: MassFlow, specific_energy: SpecificEnergy
     return mass_flow * specific_energy
 
 
-@formula(source="coulson2002, ch. 2", equation=r"R_r = \frac{F}{P}")
+@formula(source="richardson2002, ch. 2", equation=r"R_r = \frac{F}{P}")
 def reduction_ratio(feed_size: Length, product_size: Length) -> Ratio:
     """Size of the feed over that of the product.
 
@@ -333,7 +333,7 @@ class LawAdvice(NamedTuple):
 
 
 @procedure(
-    source="hukki1961; coulson2002, ch. 2",
+    source="hukki1961; richardson2002, ch. 2",
     title="Energy law for a size range",
     typical={"feed_size": (1e-2, 0.1)},
 )

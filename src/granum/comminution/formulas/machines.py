@@ -23,7 +23,7 @@ FLAT_NIP = "The tangents to the rolls at the feed meet at less than 180°; rolls
 
 
 @formula(
-    source="coulson2002, ch. 2",
+    source="richardson2002, ch. 2",
     equation=r"\omega_c = \sqrt{\frac{2g}{D - d}}",
     output="rotation_speed",
     title="Critical speed of a tumbling mill",
@@ -100,7 +100,7 @@ def ball_diameter_bond(
 
 
 @formula(
-    source="coulson2002, ch. 2",
+    source="richardson2002, ch. 2",
     equation=r"F = \frac{D + s}{\cos(\alpha/2)} - D",
     output="feed_size",
     title="Largest feed of crushing rolls",
@@ -118,7 +118,7 @@ def feed_size_rolls(roll_diameter: Length, gap_width: Length, nip_angle: Angle) 
 
 
 @formula(
-    source="coulson2002, ch. 2",
+    source="richardson2002, ch. 2",
     equation=r"\cos\frac{\alpha}{2} = \frac{D + s}{D + F}",
     output="nip_angle",
     title="Angle of nip of crushing rolls",
@@ -137,7 +137,7 @@ def nip_angle_rolls(roll_diameter: Length, gap_width: Length, feed_size: Length)
 
 
 @formula(
-    source="coulson2002, ch. 2",
+    source="richardson2002, ch. 2",
     equation=r"D = \frac{F\cos(\alpha/2) - s}{1 - \cos(\alpha/2)}",
     output="roll_diameter",
     title="Diameter of crushing rolls for a feed",
@@ -159,7 +159,7 @@ def roll_diameter_rolls(feed_size: Length, gap_width: Length, nip_angle: Angle) 
 
 
 @formula(
-    source="coulson2002, ch. 2",
+    source="richardson2002, ch. 2",
     equation=r"Q = \pi D\,\frac{\omega}{2\pi}\,w\,s\,k",
     output="volume_flow",
     title="Capacity of crushing rolls",

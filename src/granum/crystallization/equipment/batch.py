@@ -543,7 +543,7 @@ class VacuumBatchCrystallizer(CycledVessel, ChargedVessel):
             gone > 0, jnp.sum(released * middle) / jnp.where(gone > 0, gone, 1.0), product.temperature
         )
         vapor = given_off(feed, found, gone, T)
-        refuse_boiling(product.liquid[found.solvent], vapor.gas[found.vapor], feed, type(self).card)
+        refuse_boiling(vapor.gas[found.vapor], product, feed, found, type(self).card)
         product = product.replace(gas=0.0 * feed.gas)
         return VacuumBatchOutlets(
             product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow

@@ -189,7 +189,7 @@ class _Continuous(Stirred, Unit):
         )
         vapor = self._vapor(given_off(feed, found, state.evaporation, T), feed, found)
         if found.vapor is not None:
-            refuse_boiling(state.solvent, vapor.gas[found.vapor], feed, type(self).card)
+            refuse_boiling(vapor.gas[found.vapor], product, feed, found, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def _common(

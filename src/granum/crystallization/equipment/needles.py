@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import equipment
+from granum.core.flags import unsolved
 from granum.core.kinds import (
     Concentration,
     Distance,
@@ -72,6 +73,11 @@ from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED
 
 AXIS = "aspect_ratio"
+UNDERSATURATED = 0.99  # of the solubility, below which needles dissolve beyond what a curve is known to
+DISSOLVES = (
+    "The needles would dissolve: during the batch the liquor holds less than 99 % of what saturates it. Give "
+    "a feed with more dissolved, or a program that starts and stays colder."
+)
 
 
 def _axis(mixture: Mixture) -> tuple[int, np.ndarray]:
@@ -163,8 +169,8 @@ class NeedleBatchCrystallizer(Stirred, Unit):
     Crystals are prisms of volume k_v L W². Sizes, those of the seeds included, are diameters of the sphere of
     equal volume. Where the mixture has an axis ``aspect_ratio``, crystals of the feed have the ratios it says
     and the product is spread over it; otherwise seeds and crystals of the feed have one ratio. Means and the
-    standard deviation of the ratio are by mass. Crystals keep in an undersaturated solution. A share of the
-    product is held back as seed, as in ``batch_crystallizer``.
+    standard deviation of the ratio are by mass. A share of the product is held back as seed, as in
+    ``batch_crystallizer``. How needles shrink is not known: seeds that would dissolve are refused.
     """
 
     temperature_program: Program
@@ -216,6 +222,8 @@ class NeedleBatchCrystallizer(Stirred, Unit):
         )
         # once more where its flags are heard: inside what is compiled they are lost
         self.solubility(course.temperature)
+        here = course.solute_per_solvent > UNDERSATURATED * course.solubility_per_solvent
+        unsolved(jnp.all(here | (course.crystals <= 0.0)), type(self).card, reason=DISSOLVES)
         return GrownNeedles(course, found, held, seeds.number.shape[0])
 
     def outlets(self, inside: GrownNeedles, feed: Stream) -> BatchOutlets:
@@ -299,8 +307,8 @@ class NeedleCrystallizer(Evaporative):
     Crystals are prisms of volume k_v L W²; sizes are diameters of the sphere of equal volume. All crystals
     born in the vessel have one aspect ratio, that of the two growth rates: the spread is that of crystals
     which come with the feed, whose ratios an axis ``aspect_ratio`` of the mixture says, or
-    ``seed_aspect_ratio``. Means and the standard deviation of the ratio are by mass. Crystals keep in an
-    undersaturated solution.
+    ``seed_aspect_ratio``. Means and the standard deviation of the ratio are by mass. Crystals that enter with
+    an undersaturated liquor dissolve, all shapes alike, until it is saturated or they are gone.
     """
 
     growth_width: Growth = eqx.field(kw_only=True)

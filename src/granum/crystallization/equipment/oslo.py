@@ -182,7 +182,7 @@ class OsloCrystallizer(Unit):
         )
         vapor = given_off(feed, found, self.evaporation, T)
         if found.vapor is not None:
-            refuse_boiling(bed.solvent, vapor.gas[found.vapor], feed, type(self).card)
+            refuse_boiling(vapor.gas[found.vapor], product, feed, found, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: tuple[Bed, Roles, Upflow], outlets: Crystallized, feed: Stream) -> OsloFigures:

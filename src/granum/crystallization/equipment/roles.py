@@ -23,6 +23,10 @@ TOO_COLD = (
     "The feed is too cold to boil at the temperature of the vessel: give a warmer feed, a lower temperature "
     "or more heat."
 )
+DISSOLVES = (
+    "Nothing boils: crystals of the feed dissolve, and that takes more heat than the feed brings. Give a "
+    "feed with more dissolved, a lower temperature or more heat."
+)
 LARGEST = "crystals in the largest size class, which takes what is larger"
 SMALLEST = "crystals in the smallest size class, which takes what is smaller"
 
@@ -67,13 +71,16 @@ def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
     return Roles(s, pure[0], w, vapors[0] if vapors else None, anhydrous[0][1])
 
 
-def refuse_boiling(solvent: Any, vapor: Any, feed: Stream, card: Any) -> None:
+def refuse_boiling(vapor: Any, product: Stream, feed: Stream, found: Roles, card: Any) -> None:
     """Record that a vessel cannot boil as asked: no solvent would be left, or solvent that is not there would
-    have to condense.
+    have to condense, because the feed is cold or because its crystals dissolve.
     """
     least = -1e-12 * feed.mass_flow
+    solvent = product.liquid[found.solvent]
+    dissolve = (product.temperature <= feed.temperature) & (product.solid_flow < feed.solid_flow)
     unsolved(solvent >= least, card, reason=BOILED_DRY)
-    unsolved(vapor >= least, card, reason=TOO_COLD)
+    unsolved((vapor >= least) | dissolve, card, reason=TOO_COLD)
+    unsolved((vapor >= least) | ~dissolve, card, reason=DISSOLVES)
 
 
 def given_off(feed: Stream, found: Roles, evaporation: Any, temperature: Any) -> Stream:

@@ -24,7 +24,7 @@ from granum.streams.stream import Stream, empty
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, cooled, heated
 
-SOURCE = "mullin2001, ch. 8; coulson2002, ch. 15"
+SOURCE = "mullin2001, ch. 8; richardson2002, ch. 15"
 
 
 class Volatile(NamedTuple):

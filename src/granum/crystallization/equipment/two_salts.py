@@ -147,7 +147,7 @@ class TwoSaltCrystallizer(Unit):
         product = feed.replace(solid=solid, liquid=liquid, gas=0.0 * feed.gas, temperature=T)
         vapor = given_off(feed, inside.places[0], self.evaporation, T)
         if inside.places[0].vapor is not None:
-            refuse_boiling(inside.water, self.evaporation, feed, type(self).card)
+            refuse_boiling(self.evaporation, product, feed, inside.places[0], type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: Parted, outlets: Crystallized, feed: Stream) -> TwoSaltFigures:

@@ -38,7 +38,7 @@ class EntrainerBalance(NamedTuple):
 
 
 @formula(
-    source="mullin2001, ch. 8; coulson2002, ch. 15",
+    source="mullin2001, ch. 8; richardson2002, ch. 15",
     title="Pressure of the vapor of a solid (Clausius and Clapeyron)",
     equation=r"p_s = p_0 \exp\left[\frac{\Delta H_s}{R}\left(\frac{1}{T_0} - \frac1T\right)\right]",
     output="sublimation_pressure",
@@ -68,7 +68,7 @@ def sublimation_pressure_clapeyron(
 
 
 @formula(
-    source="mullin2001, ch. 8; coulson2002, ch. 15",
+    source="mullin2001, ch. 8; richardson2002, ch. 15",
     title="Entrainer sublimation: carrier and yield",
     equation=(
         r"Y_1 = \frac{M}{M_g}\,\frac{\varphi\,p_1}{P_1 - \varphi\,p_1},\quad "

@@ -250,7 +250,8 @@ def steady_needles(
     """Steady state of one vessel with mixed suspension and mixed product removal.
 
     ``entering`` are the crystals of the feed by number per second; each class counts as crystals of its mean
-    volume. An undersaturated liquor leaves them as they are.
+    volume. In an undersaturated liquor they dissolve, all shapes alike, until it is saturated or they are
+    gone.
     """
     model = needles.model
     crystal, x = model.crystal, model.crystal.solute_fraction
@@ -289,7 +290,9 @@ def steady_needles(
 
     found = steady_composition(grown, lambda c: state(c)[0], saturated, highest)
     some = found.crystallizes
-    c = jnp.where(some, found.ratio, ratio_left(all_solute, all_solvent, total, x))
+    dissolved_down = jnp.clip(crystals_at(all_solute, all_solvent, saturated, x), 0.0, total)
+    rest = jnp.where(highest > saturated, total, dissolved_down)
+    c = jnp.where(some, found.ratio, ratio_left(all_solute, all_solvent, rest, x))
     lines, born, flow = there(c)
     still = jnp.where(some, 1.0, 0.0)
     lines = Aged(
@@ -299,7 +302,7 @@ def steady_needles(
         still * lines.wider,
         lines.number.at[-1].multiply(still),
     )
-    product = jnp.where(some, state(c)[0], total)
+    product = jnp.where(some, state(c)[0], rest)
     left = all_solvent - (1.0 - x) * product
     return SteadyNeedles(
         c,

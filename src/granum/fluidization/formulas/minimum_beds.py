@@ -65,7 +65,7 @@ def minimum_fluidization_velocity_ergun(
 
 
 @formula(
-    source="carman1937; coulson2002, ch. 6",
+    source="carman1937; richardson2002, ch. 6",
     equation=(
         r"U_{mf} = \frac{(\psi d_p)^2 g (\rho_p - \rho_f)}{180\,\eta}\,\frac{\varepsilon^3}{1 - "
         r"\varepsilon}"

@@ -1,4 +1,6 @@
-"""Water activity of solutions: electrolytes by Pitzer's equation, sucrose by Starzak and Peacock."""
+"""Water activity of solutions: electrolytes by Pitzer's equation, sucrose by Starzak and Peacock, the rest by
+Raoult's law.
+"""
 
 from __future__ import annotations
 
@@ -68,11 +70,11 @@ def debye_huckel_slope(temperature: Temperature) -> PositiveNumber:
 
 
 @formula(
-    source="pitzer1973; moller1988",
+    source="pitzer1973; pitzer1974; moller1988",
     equation=(
         r"\phi = 1 - z_cz_a\frac{A_\phi(T)\sqrt I}{1+1.2\sqrt I} + m\frac{2pq}{p+q}\left(\beta_0 + "
-        r"\beta_1e^{-2\sqrt I}\right) + m^2\frac{2(pq)^{3/2}}{p+q}C_\phi,\quad "
-        r"I = \frac m2\left(p z_c^2 + q z_a^2\right)"
+        r"\beta_1e^{-\alpha\sqrt I} + \beta_2e^{-12\sqrt I}\right) + m^2\frac{2(pq)^{3/2}}{p+q}C_\phi,"
+        r"\quad I = \frac m2\left(p z_c^2 + q z_a^2\right)"
     ),
     typical={"salt_molality": (0.1, 6.0)},
     title="Osmotic coefficient of an electrolyte (Pitzer)",
@@ -87,8 +89,11 @@ def osmotic_coefficient_pitzer(
     anion_count: Count = 1.0,
     cation_charge_number: Charge = 1.0,
     anion_charge_number: Charge = 1.0,
+    pitzer_beta_two: Number = 0.0,
 ) -> Number:
     """Osmotic coefficient of one salt in water by Pitzer's equation, charges without sign.
+
+    The exponent α is 2, for two ions of charge 2 or more 1.4; these pair, which their β₂ takes up.
 
     Sodium chloride at 25 °C with Pitzer and Mayorga's coefficients, 6 mol/kg: 1.271 in Robinson and Stokes'
     table.
@@ -100,7 +105,9 @@ def osmotic_coefficient_pitzer(
     zc, za = cation_charge_number, anion_charge_number
     nu = nc + na
     root = jnp.sqrt(jnp.maximum(0.5 * m * (nc * zc**2 + na * za**2), 1e-24))
-    second = pitzer_beta_zero + pitzer_beta_one * jnp.exp(-2.0 * root)
+    pairing = jnp.minimum(zc, za) >= 2.0
+    second = pitzer_beta_zero + pitzer_beta_one * jnp.exp(jnp.where(pairing, -1.4, -2.0) * root)
+    second = second + pitzer_beta_two * jnp.exp(-12.0 * root)
     return (
         1.0
         - zc * za * debye_huckel_slope(temperature) * root / (1.0 + 1.2 * root)
@@ -150,3 +157,24 @@ def water_activity_starzak_peacock(
     """
     x = solute_mole_fraction
     return (1.0 - x) * jnp.exp(_Q / (GAS_CONSTANT * temperature) * x**2 * (1.0 + _A * x + _B * x**2))
+
+
+@formula(
+    source="raoult1887",
+    equation=r"a_s = \frac{1-x_m}{1-x_m+\nu x_m}",
+    fitted={"solute_mole_fraction": (0.0, 0.01)},
+    title="Activity of a solvent by Raoult's law",
+)
+def solvent_activity_raoult(
+    solute_mole_fraction: MoleFraction, ion_count: Annotated[PositiveNumber, Within(1.0, 8.0)] = 1.0
+) -> WaterActivity:
+    """Activity of the solvent of an ideal solution: its mole fraction, where each ion counts as a molecule.
+
+    The law of dilute solutions; an estimate beyond. In saturated solutions at 25 °C urea and sodium nitrate
+    come within 0.03 of what is measured, potassium nitrate 0.05 too low and sodium hydroxide far too high.
+
+    >>> round(solvent_activity_raoult(solute_mole_fraction=0.01, ion_count=1.0), 2)
+    0.99
+    """
+    x = solute_mole_fraction
+    return (1.0 - x) / (1.0 - x + ion_count * x)

@@ -83,7 +83,7 @@ def settling_exponent_rowe(reynolds: PositiveNumber) -> PositiveNumber:
 
 
 @formula(
-    source="khan1989; coulson2002, section 5.2.2",
+    source="khan1989; richardson2002, section 5.2.2",
     equation=r"\frac{4.8 - n}{n - 2.4} = 0.043\,\mathrm{Ar}^{0.57}\left[1 - 1.24\left(\frac{d_p}{D}\right)^{0.27}\right],"  # noqa: E501
     r"\quad \mathrm{Ar} = \tfrac34 C_D\mathrm{Re}^2",
     fitted={"wall_ratio": (0.0, 0.2)},

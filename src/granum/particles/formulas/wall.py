@@ -48,7 +48,7 @@ def wall_factor_francis(wall_ratio: WallRatio, reynolds: PositiveNumber = 0.01) 
 
 
 @formula(
-    source="coulson2002, section 3.3.2",
+    source="richardson2002, section 3.3.2",
     equation=r"k = (1-\lambda)^{2.25}\quad (\mathrm{Re}<0.2)",
     fitted={"wall_ratio": (0.0, 0.97), "reynolds": (0.0, 0.2)},
 )
@@ -62,7 +62,7 @@ def wall_factor_francis_power(wall_ratio: WallRatio, reynolds: PositiveNumber = 
 
 
 @formula(
-    source="ladenburg1907; coulson2002, section 3.3.2",
+    source="ladenburg1907; richardson2002, section 3.3.2",
     equation=r"k = \frac{1}{1 + 2.4\lambda}",
     fitted={"wall_ratio": (0.0, 0.1), "reynolds": (0.0, 0.2)},
 )
