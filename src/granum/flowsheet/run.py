@@ -333,8 +333,8 @@ class Run:
         return {name: steps for name, (steps, _made) in self._written.items()}
 
     def charts(self) -> dict[str, Any]:
-        """Pictures of what happens inside the units, by unit and heading: what each draws of itself, and where
-        each size goes if it parts sizes.
+        """Pictures of what happens inside the units, by unit and heading: what each draws of itself, and
+        where each size goes if it parts sizes.
         """
         found: dict[str, Any] = {}
         for name, unit in self.sheet.units.items():

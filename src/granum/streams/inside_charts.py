@@ -1,4 +1,4 @@
-"""Charts of what happens inside equipment: curves along a machine or over its time, and where each size goes."""
+"""Charts of what happens inside equipment: curves along it or over its time, and where each size goes."""
 
 from __future__ import annotations
 
@@ -145,8 +145,8 @@ def drawn_shares(inlets: Mapping[str, Stream], outlets: Mapping[str, Stream]) ->
     part.
     """
     from granum.core.charts import LINES, add_line, axis_title, figure
-    from granum.streams.names import port_label
     from granum.core.units import best_unit, from_si
+    from granum.streams.names import port_label
 
     shares = shares_by_size(inlets, outlets)
     if shares is None:

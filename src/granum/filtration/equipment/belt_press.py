@@ -35,9 +35,9 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
+from granum.filtration.charts_presses import drawn_pressing
 from granum.filtration.formulas.gravity import filtrate_depth_falling_head
 from granum.filtration.kinds import FlowPerWidth, ForcePerWidth, LoadPerWidth
-from granum.filtration.charts_presses import drawn_pressing
 from granum.filtration.squeezing import DENSEST, squeezed, void_ratio
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
@@ -196,9 +196,8 @@ class BeltPress(Unit):
         pressures, times = (np.asarray(x) for x in self.steps())
         edges = np.concatenate([[0.0], np.cumsum(times)])
         draining = float(self.gravity_length / self.belt_speed) * np.linspace(0.0, 1.0, 41)
-        pressing = np.unique(
-            np.concatenate([np.linspace(0.0, edges[-1], 161), edges, edges[1:-1] - 1e-9 * edges[-1]])
-        )
+        before_each = edges[1:-1] * (1.0 - 1e-9)  # the pressure rises there at once
+        pressing = np.unique(np.concatenate([np.linspace(0.0, edges[-1], 161), edges, before_each]))
         loose = (course.height - jax.vmap(lambda t: self.drained(t, feed))(draining)) / course.solid - 1.0
         tight, _reached = jax.vmap(
             lambda t: squeezed(
@@ -218,7 +217,7 @@ class BeltPress(Unit):
             feed,
             (
                 (0.0, draining[-1], draining[-1] + times[0], draining[-1] + edges[-1]),
-                (_("draining"), _("wedge"), _("rollers")),
+                (_("draining by its weight"), _("wedge of the belts"), _("rollers")),
             ),
         )
         return {_("Sludge on its way through the press"): drawn}

@@ -66,7 +66,8 @@ class Parted(NamedTuple):
 
 class Chain(NamedTuple):
     """Stages in series: what the last one leaves and what all pass together, at the temperature inside;
-    of each stage its flux, polarization modulus and the osmotic pressure of its retentate.
+    of each stage its flux, polarization modulus, and of its retentate the osmotic pressure and what the
+    membrane holds back, kg/m³.
     """
 
     retentate: Stream
@@ -74,6 +75,7 @@ class Chain(NamedTuple):
     flux: Any
     modulus: Any
     osmotic: Any
+    held: Any
 
 
 class MembraneFigures(NamedTuple):
@@ -120,15 +122,16 @@ class _Plant(Unit):
             if fresh is not None:
                 entering = entering + fresh.part(solid=1.0 / count, liquid=1.0 / count, gas=1.0 / count)
             retentate, permeate, *found = staged(entering, membrane)
-            return retentate, (permeate.solid, permeate.liquid, *found)
+            return retentate, (permeate.solid, permeate.liquid, matter(retentate, membrane), *found)
 
         start = jax.tree.map(lambda x: jnp.asarray(x, dtype=float), feed)
-        left, (solid, liquid, flux, modulus, osmotic, driven_, found) = told_scan(stage, start, length=count)
+        left, found = told_scan(stage, start, length=count)
+        solid, liquid, held, flux, modulus, osmotic, driven_, closed = found
         card = type(self).card
         unsolved(jnp.all(driven_), card, reason=HELD)
-        unsolved(jnp.all(found), card, reason=EMPTIED)
+        unsolved(jnp.all(closed), card, reason=EMPTIED)
         permeate = left.part().replace(solid=jnp.sum(solid, axis=0), liquid=jnp.sum(liquid, axis=0))
-        return Chain(left, permeate, flux, modulus, osmotic)
+        return Chain(left, permeate, flux, modulus, osmotic, held)
 
     def joined(self, chain: Chain, entering: Any, power: Any) -> Parted:
         """Retentate and permeate at the temperature that the enthalpy of what entered and the pumps give."""
@@ -148,22 +151,24 @@ class _Plant(Unit):
         if count < 2 or not float(inlets["feed"].liquid_flow) > 0.0:
             return {}
         drawn = drawn_along(
-            Axis("stage_count" if "solvent" in self.inlet_names() else "element_count", "Number", ""),
+            Axis("stage_count", "Number", "", _("stage")),
             np.arange(1, count + 1),
             (Axis("filtrate_flux", "Speed"), [Curve(_("flux"), chain.flux, "LIQUID")]),
-            (
-                Axis("pressure", "Pressure", label=_("pressure")),
-                [
-                    Curve(_("osmotic pressure of the retentate"), chain.osmotic, "SOLID"),
-                    Curve(
-                        _("pressure across the membrane"), np.full(count, self.pressure_drop), "GAS", "dot"
-                    ),
-                ],
-            ),
+            self.against(chain, count),
             mode="lines+markers",
         )
         drawn.update_xaxes(dtick=1)
         return {_("From stage to stage"): drawn}
+
+    def against(self, chain: Chain, count: int) -> tuple[Axis, list[Curve]]:
+        """What holds the flux down, from stage to stage."""
+        return (
+            Axis("pressure", "Pressure", label=_("pressure")),
+            [
+                Curve(_("osmotic pressure of the retentate"), chain.osmotic, "SOLID"),
+                Curve(_("pressure across the membrane"), np.full(count, self.pressure_drop), "GAS", "dot"),
+            ],
+        )
 
     def flux(self, chain: Chain) -> tuple[Any, Any, Any]:
         """Mean and last flux, and the permeate of all stages, m³/s."""
@@ -230,6 +235,14 @@ class Ultrafiltration(_Plant):
             lambda _flux, modulus: (1.0 - held) * modulus / (held + (1.0 - held) * modulus),
             jnp.broadcast_to(through, (len(m.solids), through.size)),
             self.concentration_gel,
+        )
+
+    def against(self, chain: Chain, count: int) -> tuple[Axis, list[Curve]]:
+        gel = self.concentration_gel
+        gels = [] if gel is None else [Curve(_("where it gels"), np.full(count, gel), "SOLID", "dot")]
+        return (
+            Axis("concentration_retentate", "Concentration"),
+            [Curve(_("what the membrane holds back"), chain.held, "SOLID"), *gels],
         )
 
     def inside(self, feed: Stream, solvent: Stream | None = None) -> Chain:

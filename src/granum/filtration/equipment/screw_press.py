@@ -38,13 +38,13 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.core.utilities import Utility
+from granum.filtration.charts_presses import drawn_pressing
 from granum.filtration.equipment.belt_press import Pressed
 from granum.filtration.formulas.constant_pressure import (
     filtrate_volume_constant_pressure,
     filtration_time_constant_pressure,
 )
 from granum.filtration.formulas.screw import screw_torque
-from granum.filtration.charts_presses import drawn_pressing
 from granum.filtration.squeezing import DENSEST, squeezed, void_ratio
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide

@@ -314,6 +314,6 @@ class ThickeningFilter(Unit):
 
 
 def _filtered(time: Any, until: Any, carried: Any, law: tuple[Any, ...]) -> tuple[Any, Any]:
-    """Filtrate per area that a cake grows by up to a time, and all of it with that at the flux under shear."""
+    """Filtrate per area that grows a cake up to a time, and all of it with that at the flux under shear."""
     growing = filtrate_volume_constant_pressure(jnp.minimum(time, until), *law)
     return growing, growing + carried * jnp.maximum(time - until, 0.0)
