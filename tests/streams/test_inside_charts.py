@@ -31,7 +31,8 @@ def test_a_press_ends_with_its_cake_at_its_last_pressure(key: str) -> None:
     run, figures = solved(key)
     lines = drawn(run, "through the press")
     time, dry = lines["dry solids"]
-    assert np.all(np.diff(time) >= 0.0) and np.all(np.diff(dry) >= -1e-9)
+    assert np.all(np.diff(time) >= 0.0)
+    assert np.all(np.diff(dry) >= -1e-9)
     feed = run.streams["feed"]
     assert dry[0] == pytest.approx(100.0 * float(feed.solid_flow / feed.mass_flow), rel=1e-6)
     assert dry[-1] == pytest.approx(100.0 * figures.solids_mass_fraction, rel=1e-6)
@@ -45,7 +46,8 @@ def test_a_filling_sinks_until_it_meets_its_cake() -> None:
     (time, level), (_same, cake) = drawn(run, "as it sinks").values()
     assert 60.0 * time[-1] == pytest.approx(figures.formation_time, rel=1e-9)
     assert level[-1] == pytest.approx(cake[-1], rel=1e-6) == pytest.approx(figures.cake_thickness, rel=1e-6)
-    assert np.all(np.diff(level) < 0.0) and np.all(np.diff(cake) >= 0.0)
+    assert np.all(np.diff(level) < 0.0)
+    assert np.all(np.diff(cake) >= 0.0)
     # all settled at once, by hand: half way down its logarithm a level has taken half of 10 439 s
     grains = (0.5, 1.0, 0.0232, 0.58, 1e9, 1e9, 2650.0, 1e-3, 998.0)
     times, levels, _cakes = sinking_slurry(np.array([0.5, 1.0]), *grains)
@@ -59,7 +61,8 @@ def test_a_bed_takes_up_what_it_holds(key: str) -> None:
     second = {"filtration.gas_carbon_bed": 60.0, "filtration.liquid_carbon_bed": 86400.0}[key]
     ((time, passes),) = drawn(run, "Breakthrough of a bed").values()
     unit = run.line.sheet.units[key.partition(".")[2]]
-    assert np.all(np.diff(passes) >= 0.0) and passes[-1] == pytest.approx(99.0, abs=1e-6)
+    assert np.all(np.diff(passes) >= 0.0)
+    assert passes[-1] == pytest.approx(99.0, abs=1e-6)
     at_end = np.interp(figures.run_time / second, time, passes)
     assert at_end == pytest.approx(100.0 * unit.breakthrough_fraction, rel=0.05)
     # what is held back to the end of the curve is the capacity of the bed, but for the last hundredth
@@ -74,7 +77,8 @@ def test_stages_add_up_to_the_plant(key: str) -> None:
     lines = drawn(run, "From stage to stage")
     flux = 1e-6 * lines["flux"][1]
     assert flux.mean() == pytest.approx(figures.filtrate_flux, rel=1e-9)
-    assert flux[-1] == pytest.approx(figures.filtrate_flux_last, rel=1e-9) and np.all(np.diff(flux) < 0.0)
+    assert flux[-1] == pytest.approx(figures.filtrate_flux_last, rel=1e-9)
+    assert np.all(np.diff(flux) < 0.0)
     if key.endswith("osmosis"):
         osmotic = 1e5 * lines["osmotic pressure of the retentate"][1]
         assert osmotic[-1] == pytest.approx(figures.osmotic_pressure, rel=1e-9)

@@ -192,8 +192,8 @@ def filtration_time_settling(
     """
     share, packed = solids_volume_fraction, 1.0 - void_fraction
     impossible(~(share < packed), share, "solids_volume_fraction", 0.0, packed, PACKED)
-    times, _level, _cake = sinking_slurry(
-        jnp.ones(1),
+    time, _level, _cake = sinking_slurry(
+        1.0,
         slurry_depth,
         settling_velocity,
         share,
@@ -204,7 +204,7 @@ def filtration_time_settling(
         dynamic_viscosity,
         liquid_density,
     )
-    return times[0]
+    return time
 
 
 def sinking_slurry(
