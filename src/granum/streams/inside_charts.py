@@ -102,7 +102,7 @@ def drawn_along(
             y = shown(axis, curve.values, in_unit)
             most = max(most, float(np.nanmax(y)))
             charts.add_line(drawing, over, y, curve.name, color=getattr(charts, curve.color), dash=curve.dash)
-            drawing.data[-1].update(**look, **({"yaxis": "y2"} if number else {}))
+            drawing.data[-1].update(look | ({"yaxis": "y2"} if number else {}))
         reach = [0.0, (most or 1.0) * room]
         if number:
             charts.add_right_axis(drawing, titled(axis, in_unit), range=reach)

@@ -231,7 +231,9 @@ class ThickeningFilter(Unit):
         growing, _filtrate = jax.vmap(lambda t: _filtered(t, pulsed.until, pulsed.carried, pulsed.law))(time)
         loading = jnp.minimum(load * growing, pulsed.loading)
         flux = pressure / (viscosity * jnp.maximum(resistance * loading + medium, OPEN))
-        tall = 4.0 * float(pulsed.flux)
+        tall = max(
+            4.0 * float(pulsed.flux), 2.0 * float(pulsed.last)
+        )  # the first moments would hide the rest
         drawn = drawn_along(
             Axis("time", "Time"),
             time,
