@@ -376,6 +376,7 @@ def test_a_line_of_a_substance_of_ones_own_is_begun_and_its_constants_changed(
       .map((e) => [e.id, e.clientWidth]).filter(([, width]) => width < 100)"""
     assert page.all("[data-panel] .quantity input")
     assert page.browser.execute_script(narrow) == []  # on a phone too a number can be read and typed
+    page.one(".setup > summary").click()  # folded on a phone, where the line comes first
     page.browser.execute_script("document.querySelector('[data-substances]').open = true")
     page.leave(page.type("#own-solid-PVC_fin-density", "1500"))
     page.button(keep).click()  # in g/cm³, as the menu beside it says

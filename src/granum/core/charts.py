@@ -146,8 +146,10 @@ def add_line(
 
 
 def add_right_axis(chart: go.Figure, title: str, **more: Any) -> None:
-    """A second upright axis on the right, for lines with ``yaxis="y2"``; it has no grid of its own."""
-    axis = {"overlaying": "y", "side": "right", "showgrid": False, "title": title}
+    """A second upright axis on the right, for lines with ``yaxis="y2"``; it has no grid of its own,
+    but marks at round numbers.
+    """
+    axis = {"overlaying": "y", "side": "right", "showgrid": False, "tickmode": "auto", "title": title}
     chart.update_layout(yaxis2=axis | more)
 
 

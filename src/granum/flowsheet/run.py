@@ -49,6 +49,7 @@ from granum.flowsheet.utilities import (
     totals,
 )
 from granum.flowsheet.watching import Watch
+from granum.streams.inside_charts import drawn_shares
 from granum.streams.stream import Stream, median_size
 from granum.streams.units import Check, Operated, Sheet, Unit
 
@@ -332,13 +333,21 @@ class Run:
         return {name: steps for name, (steps, _made) in self._written.items()}
 
     def charts(self) -> dict[str, Any]:
-        """Pictures of what happens inside the units, by unit and heading."""
-        drawing = [name for name, u in self.sheet.units.items() if type(u).charts is not Unit.charts]
-        return {
-            f"{name} · {heading}": figure
-            for name, (_steps, made) in (self._written.items() if drawing else ())
-            for heading, figure in self.sheet.units[name].charts(made, self._inlets(name)).items()
-        }
+        """Pictures of what happens inside the units, by unit and heading: what each draws of itself, and
+        where each size goes if it parts sizes.
+        """
+        found: dict[str, Any] = {}
+        for name, unit in self.sheet.units.items():
+            inlets = self._inlets(name)
+            if type(unit).charts is not Unit.charts:
+                drawn = unit.charts(self._written[name][1], inlets)
+                found |= {f"{name} · {heading}": figure for heading, figure in drawn.items()}
+            ports = {port: f"{name}.{port}" for port in type(unit).outlet_names()}
+            leaving = {port: self.streams[there] for port, there in ports.items() if there in self.streams}
+            parted = drawn_shares(inlets, leaving)
+            if parted is not None:
+                found[f"{name} · {_('Where each size goes')}"] = parted
+        return found
 
     def _inlets(self, name: str) -> dict[str, Stream]:
         """What enters a unit, as arrays that its formulas calculate with."""

@@ -88,6 +88,10 @@ from granum.streams.from_materials import (
 from granum.streams.holdup import (
     Held as Held,
 )
+from granum.streams.inside_charts import (
+    Axis as Axis,
+    Curve as Curve,
+)
 from granum.streams.mixture import (
     Mixture as Mixture,
     Species as Species,

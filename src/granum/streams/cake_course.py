@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
+from granum.streams.inside_charts import shade
 
 POINTS = 41  # of a curve
-NARROW = 0.17  # of the time axis, below which a name runs into the next one
-LINE = 0.075  # of the height of a chart
 
 
 class Stage(NamedTuple):
@@ -38,7 +36,7 @@ def still(name: str, duration: Any, thickness: Any, saturation: Any = 1.0) -> St
 
 def drawn_course(stages: Iterable[Stage]) -> Any:
     """Thickness and saturation of a cake over time, the stages shaded; None where no time passes."""
-    from granum.core.charts import ACCENT, INK, LIQUID, SOLID, add_line, add_right_axis, axis_title, figure
+    from granum.core.charts import LIQUID, SOLID, add_line, add_right_axis, axis_title, figure
     from granum.core.units import best_unit, from_si
 
     taken = [stage for stage in stages if float(stage.time[-1]) > 0.0]
@@ -56,26 +54,7 @@ def drawn_course(stages: Iterable[Stage]) -> Any:
     )
     clock = from_si(edges, t_unit, KINDS["Time"])
     drawing = figure(axis_title("time", t_unit), axis_title("cake_thickness", z_unit))
-    row = 0
-    narrow = any(stop - start < NARROW * clock[-1] for start, stop in pairwise(clock))
-    rows = len(taken) if narrow else 1
-    room = 1.0 / (1.0 - LINE * rows - 0.03)  # above the curves, for the names of the stages
-    for (start, stop), stage, shade in zip(
-        pairwise(clock), taken, (SOLID, LIQUID, ACCENT, INK, SOLID), strict=False
-    ):
-        drawing.add_vrect(x0=start, x1=stop, fillcolor=shade, opacity=0.06, line_width=0)
-        late = start > 0.4 * clock[-1]
-        drawing.add_annotation(
-            x=stop if late else start,
-            y=0.99 - LINE * row,
-            yref="paper",
-            text=stage.name,
-            showarrow=False,
-            xanchor="right" if late else "left",
-            yanchor="top",
-            font={"size": 11},
-        )
-        row += narrow
+    room = shade(drawing, list(clock), [stage.name for stage in taken])
     share = 100.0 * wet
     add_line(
         drawing,

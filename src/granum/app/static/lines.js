@@ -28,6 +28,7 @@ import { Specifications } from './line_specifications.js';
 import { Substances } from './line_substances.js';
 
 const MOST_KEPT = 2;
+const stacked = matchMedia('(max-width: 62rem)'); // one column, as in the style sheet
 const STEPS = 100; // that can be taken back
 const NEW = 'computer:line.toml'; // the place of a text that is no file yet
 const NOTHING = { sort: '', name: '' };
@@ -75,6 +76,7 @@ export function Lines({ state }) {
   const [palette, setPalette] = useState(null);
   const [chosen, choose] = useState(NOTHING);
   const [writing, setWriting] = useState(false);
+  const [setup, setSetup] = useState(!stacked.matches);
   const [removed, setRemoved] = useState(null);
   const stop = useRef(null);
   const latest = useRef('');
@@ -92,6 +94,11 @@ export function Lines({ state }) {
     files();
   }, [settings.language]);
   useEffect(() => () => stop.current?.abort(), []);
+  useEffect(() => {
+    const turned = () => setSetup(!stacked.matches); // beside the line there is room for all of it
+    stacked.addEventListener('change', turned);
+    return () => stacked.removeEventListener('change', turned);
+  }, []);
   useEffect(() => {
     if (where.current && latest.current) keepSteps(where.current, latest.current, past, future);
   }, [past, future]);
@@ -367,6 +374,7 @@ export function Lines({ state }) {
       solve(latest.current);
     }}>${t('Solve')}</button>
       <button class="button" disabled=${!past.length} onClick=${undo}>${t('Undo')}</button><button class="button" disabled=${!future.length} onClick=${redo}>${t('Redo')}</button></div>
+    <details class="setup" open=${setup} onToggle=${(e) => e.target.classList.contains('setup') && setSetup(e.target.open)}><summary>${t('File, substances, feeds and equipment')}</summary>
     <div class="row"><label class="button">${t('Open from this computer')}<input class="hidden" type="file" accept=".toml" aria-label=${t('Open from this computer')} onChange=${(e) => read(e.target.files)} /></label>
       <button class="button" disabled=${!text} onClick=${async () => {
         await complete();
@@ -388,7 +396,7 @@ export function Lines({ state }) {
       ${taken && html`<div class="row caution" role="alert">▲ ${t('There is another file of this name: {path}', { path })} <button class="button" onClick=${() => save(true)}>${t('Overwrite it')}</button> <button class="button" onClick=${() => setTaken(false)}>${t('Keep it')}</button></div>`}`
     }<span class="small dim" role="status">${told}</span>
     ${form && html`<${Substances} form=${form} build=${build} /><${Forms} form=${form} typedIn=${typedIn} build=${build} problem=${error?.details} message=${error?.message} /><${Specifications} key=${place} form=${form} build=${build} />`}
-    <details open=${writing} onToggle=${(e) => setWriting(e.target.open)}><summary>${t('Case file')}</summary><${Editor} text=${text} write=${setText} done=${change} /></details></section>
+    <details open=${writing} onToggle=${(e) => setWriting(e.target.open)}><summary>${t('Case file')}</summary><${Editor} text=${text} write=${setText} done=${change} /></details></details></section>
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
     ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
     ${text && html`<div class="row spread"><h2 class="first title">${form?.title || outcome?.title || ''}</h2><div class="row">${tools}</div></div>`}

@@ -224,6 +224,7 @@ export const french = {
     'Avec les modifications de la dernière fois ; Annuler les retire.',
   'File name': 'Nom du fichier',
   'Open from this computer': 'Ouvrir depuis cet ordinateur',
+  'File, substances, feeds and equipment': 'Fichier, substances, alimentations et appareils',
   'Download the file': 'Télécharger le fichier',
   'To save on the server, start it with --workspace FOLDER.':
     'Pour enregistrer sur le serveur, lancez-le avec --workspace DOSSIER.',

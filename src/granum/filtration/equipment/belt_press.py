@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
+from granum.core.i18n import _
 from granum.core.kinds import (
     Angle,
     CakeResistance,
@@ -31,12 +35,13 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
+from granum.filtration.charts_presses import drawn_pressing
 from granum.filtration.formulas.gravity import filtrate_depth_falling_head
 from granum.filtration.kinds import FlowPerWidth, ForcePerWidth, LoadPerWidth
 from granum.filtration.squeezing import DENSEST, squeezed, void_ratio
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, DRIVE, driven, pumped
 
 SOURCE = "metcalf2003, ch. 14"
@@ -140,15 +145,23 @@ class BeltPress(Unit):
         lengths = jnp.append(jnp.asarray(self.wedge_length), 0.5 * self.wrap_angle * diameters)
         return pressures, lengths / self.belt_speed
 
-    def inside(self, feed: Stream, wash: Stream | None = None) -> Course:
+    def laid(self, feed: Stream) -> tuple[Any, Any, Any, Any]:
+        """Height of the sludge on the belt, solid and most filtrate of it per area, solid that a filtrate
+        leaves behind.
+        """
         flow, fraction = feed.slurry_volume_flow, feed.solids_volume_fraction
         some = (flow > 0.0) & (fraction > 0.0)
         height = jnp.where(some, flow, 1e-3) / (self.belt_width * self.belt_speed)
         share = jnp.where(some, jnp.clip(fraction, 1e-9, DENSEST), 0.01)
         gel = jnp.maximum(jnp.asarray(self.solids_fraction_gel), share)
         load = feed.solid_density * share / jnp.maximum(1.0 - share / gel, 1e-6)
-        drained = filtrate_depth_falling_head(
-            self.gravity_length / self.belt_speed,
+        return height, share * height, height * (1.0 - share / gel), load
+
+    def drained(self, time: Any, feed: Stream) -> Any:
+        """Filtrate per area after a time on the belt."""
+        height, _solid, most, load = self.laid(feed)
+        fallen = filtrate_depth_falling_head(
+            time,
             height,
             self.cake_resistance,
             self.medium_resistance,
@@ -156,20 +169,58 @@ class BeltPress(Unit):
             feed.liquid_viscosity,
             feed.liquid_density,
         )
-        drained = jnp.minimum(drained, height * (1.0 - share / gel))
-        solid = share * height
-        before = (height - drained) / solid - 1.0
-        pressures, times = self.steps()
-        ratios = void_ratio(
-            pressures,
+        return jnp.minimum(fallen, most)
+
+    def ratios(self) -> Any:
+        """Void ratios that the sludge would take in the end in the wedge and at each roller."""
+        return void_ratio(
+            self.steps()[0],
             self.solids_fraction_reference,
             self.reference_pressure,
             self.compaction_exponent,
             self.solids_fraction_gel,
         )
-        left = jnp.cumsum(times[::-1])[::-1]
-        after, reached = squeezed(before, ratios, left, self.consolidation_coefficient, solid, BELTS)
+
+    def inside(self, feed: Stream, wash: Stream | None = None) -> Course:
+        height, solid, _most, _load = self.laid(feed)
+        drained = self.drained(self.gravity_length / self.belt_speed, feed)
+        before = (height - drained) / solid - 1.0
+        left = jnp.cumsum(self.steps()[1][::-1])[::-1]
+        after, reached = squeezed(before, self.ratios(), left, self.consolidation_coefficient, solid, BELTS)
         return Course(height, drained, solid, before, after, reached)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed, course = inlets["feed"], made.inside
+        if not float(feed.solid_flow) > 0.0:
+            return {}
+        pressures, times = (np.asarray(x) for x in self.steps())
+        edges = np.concatenate([[0.0], np.cumsum(times)])
+        draining = float(self.gravity_length / self.belt_speed) * np.linspace(0.0, 1.0, 41)
+        before_each = edges[1:-1] * (1.0 - 1e-9)  # the pressure rises there at once
+        pressing = np.unique(np.concatenate([np.linspace(0.0, edges[-1], 161), edges, before_each]))
+        loose = (course.height - jax.vmap(lambda t: self.drained(t, feed))(draining)) / course.solid - 1.0
+        tight, _reached = jax.vmap(
+            lambda t: squeezed(
+                course.before,
+                self.ratios(),
+                jnp.maximum(t - edges[:-1], 0.0),
+                self.consolidation_coefficient,
+                course.solid,
+                BELTS,
+            )
+        )(pressing)
+        step = np.clip(np.searchsorted(edges, pressing, side="right") - 1, 0, len(times) - 1)
+        drawn = drawn_pressing(
+            (draining, pressing),
+            (loose, tight),
+            (np.zeros(draining.size), pressures[step]),
+            feed,
+            (
+                (0.0, draining[-1], draining[-1] + times[0], draining[-1] + edges[-1]),
+                (_("draining by its weight"), _("wedge of the belts"), _("rollers")),
+            ),
+        )
+        return {_("Sludge on its way through the press"): drawn}
 
     def outlets(self, inside: Course, feed: Stream, wash: Stream | None = None) -> Pressed:
         kept = self.solids_recovery * feed.solid_volume_flow

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.errors import CaseError
@@ -33,13 +35,17 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.filtration.formulas.adsorption import breakthrough_time_wheeler_jonas
+from granum.filtration.formulas.adsorption import (
+    breakthrough_fraction_bohart_adams,
+    breakthrough_time_wheeler_jonas,
+)
 from granum.filtration.kinds import AdsorptionRate
 from granum.numerics.smooth import safe_divide
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.equilibrium import HumidMixture
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, FANNED, PUMPED, fanned, pumped
 
 SOURCE = "sorrels2018, ch. 1"
@@ -129,6 +135,29 @@ class CarbonBed(Unit):
             )
         return names.index(rest[0])
 
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        bed, seen = made.inside, self.fluid(inlets["feed"])
+        run = float(bed.run)
+        if not 0.0 < run < ENDLESS:
+            return {}
+        inlet = seen.amount / seen.volume
+        # to where 99 % passes
+        exhausted = run * float(
+            (self.adsorption_rate * bed.contact + _odds(0.99))
+            / (self.adsorption_rate * bed.contact + _odds(self.breakthrough_fraction))
+        )
+        time = np.linspace(0.0, max(exhausted, run), 161)
+        passes = breakthrough_fraction_bohart_adams.function(
+            time, bed.contact, inlet, bed.loading, self.bed_density, self.adsorption_rate
+        )
+        drawn = drawn_along(
+            Axis("time", "Time"),
+            time,
+            (Axis("breakthrough_fraction", "Fraction", "%"), [Curve(_("behind the bed"), passes, "LIQUID")]),
+            stages=((0.0, run, float(time[-1])), (_("in use"), _("breaking through"))),
+        )
+        return {_("Breakthrough of a bed"): drawn}
+
     @abstractmethod
     def candidates(self, feed: Stream, names: list[str]) -> list[str]:
         """What may be meant where nothing is named."""
@@ -202,6 +231,10 @@ class CarbonBed(Unit):
             inside.removed,
             inside.lost,
         )
+
+
+def _odds(share: Any) -> Any:
+    return np.log(share / (1.0 - share))
 
 
 @equipment(

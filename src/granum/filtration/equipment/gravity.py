@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     CakeResistance,
@@ -33,15 +36,16 @@ from granum.filtration.formulas.deliquoring import (
     saturation_after_deliquoring,
     threshold_pressure_cake,
 )
-from granum.filtration.formulas.gravity import filtration_time_settling
+from granum.filtration.formulas.gravity import filtration_time_settling, sinking_slurry
 from granum.filtration.formulas.resistance import cake_permeability
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.hindered import hindrance_richardson_zaki
 from granum.particles.formulas.numbers import reynolds_number
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.cakes import part_cake, solid_diameter
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, PUMPED, pumped
 
 PACKED = 1.0 - 1e-9
@@ -196,6 +200,36 @@ class GravityFilter(Unit):
             self.saturation(feed, jnp.maximum(thickness, THINNEST)),
             velocity,
         )
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed, batch = inlets["feed"], made.inside
+        share = float(self.solids_recovery * feed.solids_volume_fraction)
+        if not share > 0.0:
+            return {}
+        time, level, cake = sinking_slurry(
+            np.linspace(0.0, 1.0, 81),
+            self.slurry_depth,
+            batch.velocity,
+            share,
+            1.0 - self.void_fraction,
+            self.cake_resistance,
+            self.medium_resistance,
+            feed.solid_density,
+            feed.liquid_viscosity,
+            feed.liquid_density,
+        )
+        drawn = drawn_along(
+            Axis("time", "Time"),
+            time,
+            (
+                Axis("height", "Distance"),
+                [
+                    Curve(_("level of the slurry"), level, "LIQUID"),
+                    Curve(_("surface of the cake"), cake, "SOLID"),
+                ],
+            ),
+        )
+        return {_("A filling as it sinks"): drawn}
 
     def outlets(self, inside: Batch, feed: Stream) -> Drained:
         parted = part_cake(

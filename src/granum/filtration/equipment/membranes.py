@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.errors import CaseError
@@ -36,8 +38,9 @@ from granum.filtration.membranes import Membrane, matter, staged
 from granum.numerics.loops import told_scan
 from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.drives import shaft_power_incompressible
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, PUMP, PUMPED, driven
 
 SOURCE = "cheryan1998"
@@ -63,7 +66,8 @@ class Parted(NamedTuple):
 
 class Chain(NamedTuple):
     """Stages in series: what the last one leaves and what all pass together, at the temperature inside;
-    of each stage its flux and polarization modulus; the osmotic pressure of the last retentate.
+    of each stage its flux, polarization modulus, and of its retentate the osmotic pressure and what the
+    membrane holds back, kg/m³.
     """
 
     retentate: Stream
@@ -71,6 +75,7 @@ class Chain(NamedTuple):
     flux: Any
     modulus: Any
     osmotic: Any
+    held: Any
 
 
 class MembraneFigures(NamedTuple):
@@ -117,15 +122,16 @@ class _Plant(Unit):
             if fresh is not None:
                 entering = entering + fresh.part(solid=1.0 / count, liquid=1.0 / count, gas=1.0 / count)
             retentate, permeate, *found = staged(entering, membrane)
-            return retentate, (permeate.solid, permeate.liquid, *found)
+            return retentate, (permeate.solid, permeate.liquid, matter(retentate, membrane), *found)
 
         start = jax.tree.map(lambda x: jnp.asarray(x, dtype=float), feed)
-        left, (solid, liquid, flux, modulus, osmotic, driven_, found) = told_scan(stage, start, length=count)
+        left, found = told_scan(stage, start, length=count)
+        solid, liquid, held, flux, modulus, osmotic, driven_, closed = found
         card = type(self).card
         unsolved(jnp.all(driven_), card, reason=HELD)
-        unsolved(jnp.all(found), card, reason=EMPTIED)
+        unsolved(jnp.all(closed), card, reason=EMPTIED)
         permeate = left.part().replace(solid=jnp.sum(solid, axis=0), liquid=jnp.sum(liquid, axis=0))
-        return Chain(left, permeate, flux, modulus, osmotic[-1])
+        return Chain(left, permeate, flux, modulus, osmotic, held)
 
     def joined(self, chain: Chain, entering: Any, power: Any) -> Parted:
         """Retentate and permeate at the temperature that the enthalpy of what entered and the pumps give."""
@@ -138,6 +144,30 @@ class _Plant(Unit):
             retentate.replace(temperature=there.temperature),
             permeate.replace(temperature=there.temperature),
             power,
+        )
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        chain, count = made.inside, len(made.inside.flux)
+        if count < 2 or not float(inlets["feed"].liquid_flow) > 0.0:
+            return {}
+        drawn = drawn_along(
+            Axis("stage_count", "Number", "", _("stage")),
+            np.arange(1, count + 1),
+            (Axis("filtrate_flux", "Speed"), [Curve(_("flux"), chain.flux, "LIQUID")]),
+            self.against(chain, count),
+            mode="lines+markers",
+        )
+        drawn.update_xaxes(dtick=1)
+        return {_("From stage to stage"): drawn}
+
+    def against(self, chain: Chain, count: int) -> tuple[Axis, list[Curve]]:
+        """What holds the flux down, from stage to stage."""
+        return (
+            Axis("pressure", "Pressure", label=_("pressure")),
+            [
+                Curve(_("osmotic pressure of the retentate"), chain.osmotic, "SOLID"),
+                Curve(_("pressure across the membrane"), np.full(count, self.pressure_drop), "GAS", "dot"),
+            ],
         )
 
     def flux(self, chain: Chain) -> tuple[Any, Any, Any]:
@@ -207,6 +237,14 @@ class Ultrafiltration(_Plant):
             self.concentration_gel,
         )
 
+    def against(self, chain: Chain, count: int) -> tuple[Axis, list[Curve]]:
+        gel = self.concentration_gel
+        gels = [] if gel is None else [Curve(_("where it gels"), np.full(count, gel), "SOLID", "dot")]
+        return (
+            Axis("concentration_retentate", "Concentration"),
+            [Curve(_("what the membrane holds back"), chain.held, "SOLID"), *gels],
+        )
+
     def inside(self, feed: Stream, solvent: Stream | None = None) -> Chain:
         return self.chain(feed, self.membrane(feed), int(self.stage_count), solvent)
 
@@ -230,7 +268,7 @@ class Ultrafiltration(_Plant):
             flow,
             safe_divide(feed.liquid_volume_flow, outlets.retentate.liquid_volume_flow, 1.0),
             jnp.max(inside.modulus),
-            inside.osmotic,
+            inside.osmotic[-1],
             matter(outlets.retentate, self.membrane(feed)),
             jnp.clip(safe_divide(outlets.retentate.solid_flow, feed.solid_flow, 1.0), 0.0, 1.0),
             outlets.shaft_power,
@@ -338,7 +376,7 @@ class ReverseOsmosis(_Plant):
             flow,
             jnp.clip(safe_divide(outlets.permeate.liquid_volume_flow, feed.liquid_volume_flow), 0.0, 1.0),
             jnp.max(inside.modulus),
-            inside.osmotic,
+            inside.osmotic[-1],
             jnp.clip(1.0 - leaves, 0.0, 1.0),
             outlets.shaft_power,
             safe_divide(outlets.shaft_power, flow, 0.0),

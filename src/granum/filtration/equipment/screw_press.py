@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
+import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.errors import InputError
@@ -35,6 +38,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.core.utilities import Utility
+from granum.filtration.charts_presses import drawn_pressing
 from granum.filtration.equipment.belt_press import Pressed
 from granum.filtration.formulas.constant_pressure import (
     filtrate_volume_constant_pressure,
@@ -45,7 +49,7 @@ from granum.filtration.squeezing import DENSEST, squeezed, void_ratio
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, DRIVE, driven, pumped
 
 SOURCE = "judd2022"
@@ -148,9 +152,10 @@ class ScrewPress(Unit):
         """Free section of the barrel around the shaft, m²."""
         return 0.25 * jnp.pi * (self.screw_diameter**2 - shaft**2)
 
-    def passage(self, velocity: Any, feed: Stream) -> Passage:
-        """What becomes of the feed when its cake moves at an axial velocity."""
-        stay = self.screw_length / velocity
+    def entering(self, velocity: Any, feed: Stream) -> tuple[Any, Any, Any, tuple[Any, ...]]:
+        """Of the feed per area of barrel, when its cake moves at an axial velocity: its volume, its solid and
+        its most filtrate; and what Ruth's law is given.
+        """
         fraction = feed.solids_volume_fraction
         some = (feed.slurry_volume_flow > 0.0) & (fraction > 0.0)
         height = jnp.where(some, feed.slurry_volume_flow, TRICKLE) / (jnp.pi * self.screw_diameter * velocity)
@@ -165,17 +170,51 @@ class ScrewPress(Unit):
             load,
             self.medium_resistance,
         )
-        most = height * (1.0 - share / gel)
+        return height, share * height, height * (1.0 - share / gel), cake
+
+    def passage(self, velocity: Any, feed: Stream) -> Passage:
+        """What becomes of the feed when its cake moves at an axial velocity."""
+        stay = self.screw_length / velocity
+        some = (feed.slurry_volume_flow > 0.0) & (feed.solids_volume_fraction > 0.0)
+        height, solid, most, cake = self.entering(velocity, feed)
         needed = filtration_time_constant_pressure(most, *cake)
         filtered = jnp.minimum(filtrate_volume_constant_pressure(stay, *cake), most)
-        solid = share * height
         before = (height - filtered) / solid - 1.0
-        along = jnp.linspace(0.0, 1.0, STEPS + 1)
-        left = jnp.maximum(stay - needed, 0.0) * (1.0 - jnp.maximum(along - 0.5 / STEPS, 0.0))
-        after, reached = squeezed(
-            before, self.ratios(along), left, self.consolidation_coefficient, solid, OUTWARD
-        )
+        longest = jnp.maximum(stay - needed, 0.0)
+        after, reached = self.squeezing(longest, longest, before, solid)
         return Passage(velocity, stay, jnp.where(some, needed / stay, 0.0), before, after, reached)
+
+    def squeezing(self, time: Any, longest: Any, before: Any, solid: Any) -> tuple[Any, Any]:
+        """Void ratio after a part of the time of squeezing, and the share of it that is reached."""
+        along = jnp.linspace(0.0, 1.0, STEPS + 1)
+        left = jnp.maximum(time - longest * jnp.maximum(along - 0.5 / STEPS, 0.0), 0.0)
+        return squeezed(before, self.ratios(along), left, self.consolidation_coefficient, solid, OUTWARD)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed, passed = inlets["feed"], made.inside
+        if not float(feed.solid_flow) > 0.0:
+            return {}
+        height, solid, most, cake = self.entering(passed.velocity, feed)
+        stay = float(passed.stay)
+        filters = min(float(passed.filtering), 1.0) * stay
+        longest = stay - filters
+        filtering = filters * np.linspace(0.0, 1.0, 81) ** 2  # steepest at first
+        taken = jnp.minimum(jax.vmap(lambda t: filtrate_volume_constant_pressure(t, *cake))(filtering), most)
+        along = np.linspace(0.0, 1.0, 161)
+        tight, _reached = jax.vmap(lambda t: self.squeezing(t, longest, passed.before, solid))(
+            along * longest
+        )
+        rise = self.cone_pressure / self.feed_pressure
+        drawn = drawn_pressing(
+            (filtering, along * longest),
+            ((height - taken) / solid - 1.0, tight),
+            (np.full(filtering.size, self.feed_pressure), self.feed_pressure * rise**along),
+            feed,
+            ((0.0, filters, stay), (_("filtering"), _("squeezing")))
+            if longest > 0.0
+            else ((0.0, stay), (_("filtering"),)),
+        )
+        return {_("Sludge on its way through the press"): drawn}
 
     def ratios(self, along: Any) -> Any:
         """Void ratios that the cake would take in the end, along the part of the barrel that squeezes."""

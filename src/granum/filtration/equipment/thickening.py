@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     CakeResistance,
@@ -38,8 +42,9 @@ from granum.filtration.formulas.resistance import cake_resistance_power_law
 from granum.filtration.kinds import VolumePerArea
 from granum.numerics.smooth import safe_divide
 from granum.streams.cakes import sinking_solids
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, PUMPED, pumped
 
 SOURCE = "ruth1935; cheryan1998; cumming1999"
@@ -75,7 +80,8 @@ class ThickeningFigures(NamedTuple):
 
 class Pulsed(NamedTuple):
     """Shares of solid and liquid to the thickened slurry, volumes per area of a cycle: filtered and net; mean
-    and last flux; cake.
+    and last flux; cake; area needed; what Ruth's law is given, and the time and the flux at which shear stops
+    the cake.
     """
 
     solid: Any
@@ -87,6 +93,9 @@ class Pulsed(NamedTuple):
     loading: Any
     thickness: Any
     needed: Any
+    law: tuple[Any, ...]
+    until: Any
+    carried: Any
 
 
 @equipment(
@@ -189,9 +198,7 @@ class ThickeningFilter(Unit):
         through = self.pressure_drop / (feed.liquid_viscosity * carried) - self.medium_resistance
         most = jnp.maximum(through, 0.0) / (resistance * per_filtrate)
         until = filtration_time_constant_pressure(most, *law)
-        grows = self.filtration_time < until
-        growing = filtrate_volume_constant_pressure(jnp.minimum(self.filtration_time, until), *law)
-        filtered = growing + jnp.where(grows, 0.0, carried * jnp.maximum(self.filtration_time - until, 0.0))
+        growing, filtered = _filtered(self.filtration_time, until, carried, law)
         loading = per_filtrate * jnp.minimum(growing, most)
         resists = jnp.maximum(resistance * loading + self.medium_resistance, OPEN)
         last = self.pressure_drop / (feed.liquid_viscosity * resists)
@@ -210,7 +217,46 @@ class ThickeningFilter(Unit):
             loading,
             loading / (packed * feed.solid_density),
             needed,
+            law,
+            until,
+            carried,
         )
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed, pulsed = inlets["feed"], made.inside
+        if not float(feed.solid_flow) > 0.0:
+            return {}
+        _area, pressure, viscosity, resistance, load, medium = pulsed.law
+        time = float(self.filtration_time) * np.linspace(0.0, 1.0, 161) ** 2  # steepest at first
+        growing, _filtrate = jax.vmap(lambda t: _filtered(t, pulsed.until, pulsed.carried, pulsed.law))(time)
+        loading = jnp.minimum(load * growing, pulsed.loading)
+        flux = pressure / (viscosity * jnp.maximum(resistance * loading + medium, OPEN))
+        tall = max(
+            4.0 * float(pulsed.flux), 2.0 * float(pulsed.last)
+        )  # the first moments would hide the rest
+        drawn = drawn_along(
+            Axis("time", "Time"),
+            time,
+            (
+                Axis("filtrate_flux", "Speed"),
+                [
+                    Curve(_("flux"), np.where(flux <= tall, flux, np.nan), "LIQUID"),
+                    Curve(_("mean of the cycle"), np.full(time.shape, float(pulsed.flux)), "LIQUID", "dot"),
+                ],
+            ),
+            (
+                Axis("cake_thickness", "Distance"),
+                [
+                    Curve(
+                        _("cake"),
+                        loading / ((1.0 - self.void_fraction) * feed.solid_density),
+                        "SOLID",
+                        "dash",
+                    )
+                ],
+            ),
+        )
+        return {_("Between two pulses"): drawn}
 
     def carried(self, around: Any, packed: Any) -> Any:
         """Flux whose solid shear carries away from the cake, m/s; hardly any without shear."""
@@ -267,3 +313,9 @@ class ThickeningFilter(Unit):
             "electric_power_drive": self.drive_power_per_area * self.area,
             "area_installed": self.area,
         }
+
+
+def _filtered(time: Any, until: Any, carried: Any, law: tuple[Any, ...]) -> tuple[Any, Any]:
+    """Filtrate per area that grows a cake up to a time, and all of it with that at the flux under shear."""
+    growing = filtrate_volume_constant_pressure(jnp.minimum(time, until), *law)
+    return growing, growing + carried * jnp.maximum(time - until, 0.0)

@@ -192,14 +192,43 @@ def filtration_time_settling(
     """
     share, packed = solids_volume_fraction, 1.0 - void_fraction
     impossible(~(share < packed), share, "solids_volume_fraction", 0.0, packed, PACKED)
-    share = jnp.clip(share, 1e-12, (1.0 - 1e-6) * packed)
-    deep, weight = slurry_depth, liquid_density * STANDARD_GRAVITY
+    time, _level, _cake = sinking_slurry(
+        1.0,
+        slurry_depth,
+        settling_velocity,
+        share,
+        packed,
+        cake_resistance,
+        medium_resistance,
+        solid_density,
+        dynamic_viscosity,
+        liquid_density,
+    )
+    return time
+
+
+def sinking_slurry(
+    part: Any,
+    deep: Any,
+    velocity: Any,
+    share: Any,
+    packed: Any,
+    resistance: Any,
+    medium: Any,
+    solid_density: Any,
+    viscosity: Any,
+    liquid_density: Any,
+) -> tuple[Any, Any, Any]:
+    """Times at which the logarithm of the level has come a part of its way down to the cake, the levels then
+    and the cake below them.
+    """
+    share, weight = jnp.clip(share, 1e-12, (1.0 - 1e-6) * packed), liquid_density * STANDARD_GRAVITY
     end = share * deep / packed
-    whole = dynamic_viscosity / weight * (cake_resistance * share * deep * solid_density + medium_resistance)
+    whole = viscosity / weight * (resistance * share * deep * solid_density + medium)
     growth = packed * share * solid_density / (packed - share)
-    A = dynamic_viscosity * cake_resistance * growth / weight
-    B = dynamic_viscosity * medium_resistance / weight
-    c = A * settling_velocity
+    A = viscosity * resistance * growth / weight
+    B = viscosity * medium / weight
+    c = A * velocity
 
     def lasts(s: Any) -> Any:
         steep = jnp.minimum(c * s, STEEPEST)
@@ -209,11 +238,15 @@ def filtration_time_settling(
     fallen = jnp.log(deep / end)
     # what is left above the cake, end (e^(fallen - s) - 1): the difference of depths would lose its digits
     root = find_root(
-        lambda s: settling_velocity * lasts(s) - end * jnp.expm1(fallen - s),
+        lambda s: velocity * lasts(s) - end * jnp.expm1(fallen - s),
         0.0,
         fallen * (1.0 + 1e-9),  # where nothing settles the root is the end itself
         tolerance=1e-13,
     )
     unconverged(root.converged)
     lain = jnp.minimum(root.value, fallen)
-    return lasts(lain) + whole * (fallen - lain)
+    s = part * fallen
+    times = lasts(jnp.minimum(s, lain)) + whole * jnp.maximum(s - lain, 0.0)
+    level = deep * jnp.exp(-s)
+    cake = share / (packed - share) * (velocity * times + deep - level)
+    return times, level, jnp.where(s < lain, jnp.minimum(cake, end), end)
