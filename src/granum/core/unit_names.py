@@ -170,8 +170,8 @@ def parse_unit(text: str) -> Any:
     if re.search(r"\btons?\b", spelled):
         raise UnitError(
             _(
-                "In unit '{unit}' a ton may be 1000 kg or 2000 lb: write t for the one, short_ton for the "
-                "other, long_ton for 2240 lb."
+                "In unit '{unit}' a ton may be 1000 kg or 2000 lb: write t for the one, short ton for the "
+                "other, long ton for 2240 lb."
             ).format(unit=text),
             unit=text,
         )
