@@ -108,11 +108,11 @@ def turned(stream: Stream, mixture: Mixture) -> Stream:
     )
 
 
-def within(figures: Any) -> dict[str, Any]:
+def within(figures: Mapping[str, Any], made: type) -> dict[str, Any]:
     """Which figures are finite and lie in the bounds of their kind."""
-    hints = get_type_hints(type(figures), include_extras=True)
+    hints = get_type_hints(made, include_extras=True)
     kept = {}
-    for name, value in figures._asdict().items():
+    for name, value in figures.items():
         slack = 1e-12 * jnp.maximum(jnp.abs(jnp.asarray(value)), 1.0)
         kept[name] = (
             kind_of(hints[name]).contains(value + slack) | kind_of(hints[name]).contains(value - slack)
@@ -144,11 +144,12 @@ def tried(case: Case, x: np.ndarray, reverse: bool = False) -> Tried:
         if reverse:
             products = {n: turned(s, case.mixture) for n, s in products.items()}
         sheet = solution.sheets["unit"][0]
+        figures = {name: value for name, value in sheet._asdict().items() if value is not None}
         return Tried(
             feeds,
             products,
-            sheet._asdict(),
-            within(sheet),
+            figures,
+            within(figures, type(sheet)),
             found.lost[0],
             jnp.all(found.finite),
             jnp.min(found.lowest),
