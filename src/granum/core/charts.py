@@ -89,8 +89,8 @@ def figure(
 
 
 def _mark_short_decades(chart: go.Figure) -> None:
-    """Marks within the decade on logarithmic axes whose data span little more than one, which would have one
-    mark or none.
+    """Marks within the decade on logarithmic axes whose data span little more than one, or among which there
+    is one power of ten: it would have one mark or none.
     """
     for axis, coordinate in ((chart.layout.xaxis, "x"), (chart.layout.yaxis, "y")):
         if axis.type != "log":
@@ -100,7 +100,8 @@ def _mark_short_decades(chart: go.Figure) -> None:
         )
         seen = seen[np.isfinite(seen) & (seen > 0)]
         low, high = (float(seen.min()), float(seen.max())) if seen.size else (1.0, 100.0)
-        short = high < 20.0 * low and low >= 1e-3 and high < 1e5
+        decades = np.floor(np.log10(high)) - np.ceil(np.log10(low)) + 1  # powers of ten among the data
+        short = (high < 20.0 * low or decades < 2) and low >= 1e-3 and high < 1e5
         steps = (1, 2, 5) if high > 6 * low else (1, 1.5, 2, 3, 4, 5, 6, 8)
         marks = [s * 10.0**k for k in range(-4, 5) for s in steps]
         axis.update(tickvals=marks, tickformat="~r", tickmode="array") if short else axis.update(

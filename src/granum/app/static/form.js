@@ -68,7 +68,7 @@ function LawTable({ p, id, note, text, onChange }) {
             ? html`<${value?.law ? LawTable : Choice} p=${q} id=${`${id}-${name}`} note=${note} text=${value?.law ? JSON.stringify(value) : named(q, value)} onChange=${(next) => set(name, table_of(next))} />`
             : q?.kind && isQuantity(value)
               ? html`<${Quantity} p=${q} id=${`${id}-${name}`} note=${note} text=${[value].flat().map(brief).join('; ')} onChange=${(next) => set(name, bare(next, value))} />`
-              : html`<input id=${`${id}-${name}`} value=${plain(value)} onInput=${(e) => set(name, read(e.target.value, value))} />`
+              : html`<${Plain} id=${`${id}-${name}`} value=${value} onChange=${(next) => set(name, next)} />`
         }</div>`;
       })}</div>`;
 }
@@ -86,7 +86,7 @@ const brief = (x) =>
 const isQuantity = (value) => [value].flat().every((x) => typeof x === 'number' || typeof x === 'string');
 const plain = (value) =>
   typeof value === 'string'
-    ? inLanguage(value)
+    ? value
     : typeof value === 'number'
       ? inLanguage(String(value))
       : JSON.stringify(value);
@@ -94,9 +94,20 @@ const plain = (value) =>
 const bare = (text, before) =>
   typeof before === 'number' && text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : text;
 
-/** What is typed for an option that is no quantity. */
+/** An option that is no quantity: a name, a number without a unit, a list. The text is that of the person who types it. */
+function Plain({ id, value, onChange }) {
+  const [before] = useState(value);
+  const [typed, setTyped] = useState(null);
+  const take = (text) => {
+    setTyped(text);
+    onChange(read(text, before));
+  };
+  return html`<input id=${id} value=${typed ?? plain(value)} onInput=${(e) => take(e.target.value)} onBlur=${() => setTyped(null)} />`;
+}
+
+/** What is typed for an option that is no quantity; a comma is that of a number only in a number. */
 function read(typed, before) {
-  const clean = typed.replace(/^([-+]?\d*),(\d*)/, '$1.$2');
+  const clean = typeof before === 'number' ? typed.replace(/^([-+]?\d*),(\d*)$/, '$1.$2') : typed;
   if (!clean.trim().startsWith('[')) return bare(clean, before);
   try {
     return JSON.parse(clean);
