@@ -137,7 +137,7 @@ def test_clear_messages():
     with pytest.raises(InputError, match="too few"):
         LeafTest(time=[1, 2, 4, 7], filtrate_volume=[1, 2, 3, 4], first_points_excluded=2, **CONDITIONS).fit()
     with pytest.raises(InputError, match="no column 'filtrate_volume"):
-        LeafTest.read(io.StringIO("time [s],volume [L]\n1,2\n2,3\n3,4\n"), **CONDITIONS)
+        LeafTest.read(io.StringIO("time [s],mass [kg]\n1,2\n2,3\n3,4\n"), **CONDITIONS)
 
 
 @pytest.mark.parametrize("readings", [("3 min", "5 L"), ("3 12 min", "5 5 L"), ("3 4 min", "5 10 L")])
