@@ -296,7 +296,13 @@ def law_of(family: str, name: str, where: str = "", options: Mapping[str, Any] |
 
 
 _KINEMATIC = KINDS["KinematicViscosity"]
+_DYNAMIC = KINDS["DynamicViscosity"]
 _DENSITIES = ("fluid_density", "liquid_density", "gas_density")
+
+
+def _is_kinematic(viscosity: str) -> bool:
+    """Whether it has such a unit; ordinary dynamic ones are known without reading units at length."""
+    return not units.in_unit_of(viscosity, _DYNAMIC.unit) and units.in_unit_of(viscosity, _KINEMATIC.unit)
 
 
 @dataclass(frozen=True)
@@ -345,7 +351,7 @@ class Binder:
             if wanted in typed:
                 message = _("'{name}' was given twice for {owner}.")
                 raise InputError(message.format(name=wanted, owner=self.owner), name=name)
-        elif isinstance(typed.get(wanted), str) and units.in_unit_of(typed[wanted], _KINEMATIC.unit):
+        elif isinstance(typed.get(wanted), str) and _is_kinematic(typed[wanted]):
             given_as = typed[wanted]
         else:
             return values, origins
