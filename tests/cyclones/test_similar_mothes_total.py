@@ -126,6 +126,9 @@ def test_hardness_of_minerals() -> None:
     found = np.asarray(erosion.indentation_hardness_mohs(np.array([6.0, 6.5, 7.0])))
     assert found[[0, 2]] == pytest.approx([6.87e9, 12.2e9])
     assert found[1] == pytest.approx(np.sqrt(found[0] * found[2]))
+    # Tabor (1954, recalled): a step on the scale is 60 % more hardness, from gypsum to corundum
+    soft, hard = np.asarray(erosion.indentation_hardness_mohs(np.array([2.0, 9.0])))
+    assert (hard / soft) ** (1 / 7) == pytest.approx(1.6, rel=0.05)
     assert np.all(np.diff(np.asarray(erosion.indentation_hardness_mohs(np.linspace(1.0, 9.0, 99)))) > 0.0)
 
 

@@ -244,7 +244,9 @@ def _feed(name: str, table: FeedTable, mixture: Mixture) -> Stream:
     try:
         return feed(mixture, sizes=sizes, where=_("in [feeds.{name}]").format(name=name), **words)
     except GranumError as problem:
-        raise CaseError(problem.message, **problem.details) from None
+        place = f"feeds.{name}]"
+        told = problem.message if place in problem.message else f"[{place} {problem.message}"
+        raise CaseError(told, **problem.details) from None
 
 
 def _unit(name: str, table: dict[str, Any]) -> Any:

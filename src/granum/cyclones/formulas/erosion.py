@@ -130,6 +130,8 @@ def wear_velocity_cyclone_inlet(
 def indentation_hardness_mohs(mohs_hardness: Annotated[PositiveNumber, Within(1.0, 9.0)]) -> Pressure:
     """Indentation hardness of a mineral, between those measured on Mohs' minerals.
 
+    The nine hardnesses are recalled, the print was not opened.
+
     >>> round(indentation_hardness_mohs(7.0) / 1e9, 1)
     12.2
     """
