@@ -84,6 +84,17 @@ def test_what_tracing_looks_at_is_in_the_name(folder: Path, x: Any, named: Any) 
     assert len(leave(folder)) == 2
 
 
+def test_whether_equal_things_are_one_is_not_in_the_name(folder: Path) -> None:
+    one, other = (2.0, "water"), ("".join(["wa", "ter"]), 2.0)[::-1]
+    assert one == other
+    assert one[1] is not other[1]
+    ask(Counted(), named=[one, one])
+    leave(folder)
+    second = Counted()
+    ask(second, named=[one, other])
+    assert second.traced == 0
+
+
 def test_another_language_and_other_code_have_other_names(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

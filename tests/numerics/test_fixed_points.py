@@ -7,7 +7,7 @@ import pytest
 
 from granum.numerics import Anderson, Newton, fixed_point, solve_system
 
-METHODS = [Anderson(), Anderson(window=1), Anderson(damping=0.5), Newton()]
+METHODS = [Anderson(), Anderson(window=1), Anderson(damping=0.5), Anderson(plain=4), Newton()]
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -117,6 +117,27 @@ def test_anderson_recovers_from_bad_steps(loop, start: float, answer: float) -> 
     solution = fixed_point(loop, start)
     assert solution.converged
     np.testing.assert_allclose(solution.state, answer, rtol=1e-9)
+
+
+def test_first_steps_may_be_repeated_substitution() -> None:
+    def fills(x: jax.Array, _: None) -> jax.Array:
+        return 0.9 * x + jnp.array([1.0, 2.0])
+
+    method = Anderson(plain=4)
+    filled = fixed_point(fills, jnp.zeros(2), method=method, scale=1.0, max_steps=4)
+    np.testing.assert_allclose(filled.state, [2.71, 5.42])  # 1 + 0.9 + 0.81, and twice as much
+    full = fixed_point(fills, jnp.zeros(2), method=method, scale=1.0, max_steps=8)
+    assert full.converged
+    np.testing.assert_allclose(full.state, [10.0, 20.0])
+
+
+def test_a_recycle_without_numbers_while_it_fills_is_filled_more_slowly() -> None:
+    def overflows(x: jax.Array, _: None) -> jax.Array:
+        return 4.6 - x**2 + jnp.sqrt(5.0 - x)  # 6.8 from an empty start, where the next has no number
+
+    found = fixed_point(overflows, 0.0, method=Anderson(plain=4), scale=1.0)
+    assert found.converged
+    np.testing.assert_allclose(overflows(found.state, None), found.state)
 
 
 def test_running_out_of_steps_keeps_the_last_iterate() -> None:

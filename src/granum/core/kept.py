@@ -89,7 +89,7 @@ class Named:
             try:
                 digest, self._whole = _digest(identity)
                 self._path = folder / f"{digest}{ENDING}"
-            except (Unkept, pickle.PicklingError, AttributeError, TypeError, RecursionError):
+            except (Unkept, pickle.PicklingError, AttributeError, TypeError, ValueError, RecursionError):
                 self._path = None
 
     def found(self) -> Any:
@@ -225,6 +225,9 @@ class _Namer(pickle.Pickler):
 
     def __init__(self, file: Any):
         super().__init__(file, protocol=5)
+        # what is met twice is written twice: whether equal things are one or two differs between a process
+        # that made them and one that read them
+        self.fast = True
         self.whole: list[Any] = []
 
     def reducer_override(self, thing: Any) -> Any:

@@ -42,7 +42,7 @@ EXACT: dict[str, Any] = {"method": Continuation(), "max_steps": 60}
 RUNGS = 2
 QUICK = 80
 """Passes of the quick solver, and again for each specification, before exact derivatives take over."""
-PATIENCE = 20
+PATIENCE = 30
 """Passes in which the residual of a loop falls tenfold where the quick solver will do."""
 FIRST = 10
 """Passes through the loops before anybody looks how far they are."""

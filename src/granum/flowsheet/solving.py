@@ -5,6 +5,7 @@ both.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
 from itertools import accumulate
 from typing import Any, NamedTuple
 
@@ -37,6 +38,8 @@ NEARLY = 1e-5  # a loop so near to rest is not what is wrong when a figure canno
 Method = Anderson | Continuation | Chords
 QUICK_METHOD = Anderson(window=8)
 """Whole lines remember more passes than a unit does: a pass costs far more than what is learned from it."""
+FILLING = 4
+"""Plain passes through a loop that begins empty."""
 
 
 class Solution(NamedTuple):
@@ -109,6 +112,9 @@ def _run_loop(
     begun = jnp.zeros((0,)) if wanted is None else jnp.asarray(wanted.start, dtype=float)
 
     loop = _loop(line, block)
+    if isinstance(method, Anderson):
+        flows = jnp.stack([s.mass_flow for s in guess.values()] or [jnp.ones(())])
+        method = replace(method, plain=jnp.where(jnp.any(flows > 0.0), 0, FILLING))
 
     def torn(vector: Any) -> dict[str, Stream]:
         rows = vector[: loop.count * loop.row].reshape(loop.count, loop.row)

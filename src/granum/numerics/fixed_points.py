@@ -56,18 +56,21 @@ class Anderson(AbstractMethod):
     is forgotten and a plain step is tried, halved each time that this happens in a row.
 
     What the best residual was is forgotten every ``leniency`` steps: a recycle that fills often gets
-    worse before it gets better, and steps held to one lucky point would never leave it.
+    worse before it gets better, and steps held to one lucky point would never leave it. What a recycle
+    does while it fills says little of what it does when it is full: the first steps may be ``plain``.
 
     Parameters
     ----------
     window: number of earlier points remembered.
     damping: part of each step taken, in (0, 1].
     leniency: steps after which a worse residual than the best is allowed once.
+    plain: steps of repeated substitution before any is learned from.
     """
 
     window: int = eqx.field(static=True, default=5)
     damping: float = 1.0
     leniency: int = eqx.field(static=True, default=10)
+    plain: Any = 0
 
     def begin(self, start: jax.Array) -> tuple:
         """The state of an iteration that has evaluated nothing yet; its first item is where to evaluate, its
@@ -93,9 +96,11 @@ class Anderson(AbstractMethod):
         slots = len(points)
         size = largest(r)
         least = jnp.where(number % self.leniency == 0, jnp.inf, least)
+        filling = (number < self.plain) & jnp.isfinite(size)
+        least = jnp.where(filling, size, least)
         # the start is often an empty stream, whose residual says little: the first step from it may look far
         # worse and be right
-        second = (number == 1) & jnp.isfinite(size) & (size <= 100.0 * least)
+        second = (number == jnp.maximum(self.plain, 1)) & jnp.isfinite(size) & (size <= 100.0 * least)
         accepted = second | ((size <= 2.0 * least) & (jnp.isfinite(size) | (number == 0)))
         instructive = ~accepted & (size <= 10.0 * least) & (rejected == 0) & jnp.isfinite(size)
         least = jnp.where(second, size, jnp.minimum(size, least))
@@ -108,8 +113,9 @@ class Anderson(AbstractMethod):
             (points.at[slot].set(x), residuals.at[slot].set(r)),
             (jnp.broadcast_to(base[0], points.shape), jnp.broadcast_to(base[1], points.shape)),
         )
-        points = jnp.where(number == 0, x, points)
-        residuals = jnp.where(number == 0, r, residuals)
+        forgets = filling | (number == 0)
+        points = jnp.where(forgets, x, points)
+        residuals = jnp.where(forgets, r, residuals)
         moves, changes = points - base[0], residuals - base[1]
         move = self.damping * base[1]
         move = move - _fitted(changes, base[1]) @ (moves + self.damping * changes)
