@@ -26,3 +26,9 @@ def test_examples(module: str) -> None:
         extraglobs={"jnp": importlib.import_module("jax.numpy"), "granum": granum},
     )
     assert outcome.failed == 0
+
+
+def test_every_export_of_the_numerics_is_explained() -> None:
+    numerics = importlib.import_module("granum.numerics")
+    for name in dir(numerics):
+        assert getattr(numerics, name).__doc__

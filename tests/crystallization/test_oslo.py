@@ -72,8 +72,10 @@ def test_the_bed_against_its_equations_integrated_apart():
         there = c + 2100.0 * 0.6 * N * (size**3 - low**3) / flow
         return 2e-5 * (there / SOLUBLE - 1.0) ** 1.3
 
+    falling = jax.jit(lambda size: LIQUOR.falls(size, CRYSTAL))
+
     def void(size):
-        v, n = (float(x) for x in LIQUOR.falls(size, CRYSTAL))
+        v, n = (float(x) for x in falling(size))
         return (0.03 / v) ** (1.0 / n)
 
     volume = quad(lambda s: N * 0.6 * s**3 / growth(s) / (1.0 - void(s)), low, high, limit=200)[0]

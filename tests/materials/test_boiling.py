@@ -44,9 +44,10 @@ OWN = {
 
 def saturated(solute, pressure):
     """Elevation of the solution that is saturated where it boils, K."""
-    system, T = gr.materials.solute(solute), 375.0
-    for _ in range(30):
-        T = float(system.boiling_temperature(pressure, system.solubility(T)))
+    system, T, before = gr.materials.solute(solute), 375.0, 0.0
+    boils = jax.jit(lambda T: system.boiling_temperature(pressure, system.solubility(T)))
+    while abs(T - before) > 1e-6:
+        T, before = float(boils(T)), T
     return T - float(system.solvent.boiling_temperature(pressure))
 
 
