@@ -39,7 +39,10 @@ COLD_CHEST = (
     "heat. Give steam of a higher pressure, a lower pressure over the solution or a warmer feed."
 )
 DRY = "The solvent boils off wholly: give more feed, a smaller area or steam of a lower pressure."
-NOT_FOUND = "No temperature was found at which the solution boils: give a smaller area, more feed or another pressure."
+NOT_FOUND = (
+    "No temperature was found at which the solution boils: give a smaller area, more feed or another "
+    "pressure."
+)
 COLD_STEAM = (
     "The heating steam is not hotter than the boiling solution: give steam of a higher pressure or a lower "
     "pressure over the solution."
