@@ -211,7 +211,8 @@ class Evaporator(_Single):
     The boiling-point elevation follows from the water activity of the library's solutes, each as in its own
     solution with all the water, or from two given coefficients. Where the mixture has a crystal of a solute,
     the product is just saturated and fresh crystals have the given sizes: kinetics are those of the
-    crystallizers. Heats of dilution and the pressure of the liquid column are left out.
+    crystallizers; of several crystals of that solute the one forms that is stable at the boiling temperature.
+    Heats of dilution and the pressure of the liquid column are left out.
     """
 
     def inside(self, feed: Stream) -> tuple[Liquor, Effect, Any]:
