@@ -1,4 +1,4 @@
-"""Slug flow in a narrow tube: long bubbles of gas part the liquid, each slug stirred by its own circulation."""
+"""Slug flow in a narrow tube: long bubbles of gas part the liquid, and each slug stirs itself."""
 
 from __future__ import annotations
 
@@ -45,10 +45,10 @@ class SlugFlow(NamedTuple):
     source="aussillous2000; bretherton1961; kreutzer2005",
     title="Slug flow of gas and liquid in a narrow tube",
     equation=r"\frac{2\delta}{D} = \frac{1.34\,\mathrm{Ca}^{2/3}}{1 + 3.35\,\mathrm{Ca}^{2/3}},\quad "
-    r"U_b = \frac{U}{(1 - 2\delta/D)^2},\quad "
-    r"\Delta p = \frac{2 f \rho U^2}{D}\,(1-\varepsilon)\,L,\quad "
-    r"f = \frac{16}{\mathrm{Re}}\left(1 + 0.17\,\frac{D}{L_s}"
-    r"\left(\frac{\mathrm{Re}}{\mathrm{Ca}}\right)^{1/3}\right)",
+    r"U_b = \frac{U_L + U_G}{(1 - 2\delta/D)^2},\quad \varepsilon = \frac{U_G}{U_b},\quad "
+    r"\Delta p = \frac{32\,\eta\,(U_L + U_G)}{D^2}\left(1 + 0.17\,\frac{D}{L_s}"
+    r"\left(\frac{\rho_f D\,\sigma}{\eta^2}\right)^{1/3}\right)(1-\varepsilon)\,L",
+    symbols={"superficial_velocity_liquid": "U_L", "superficial_velocity_gas": "U_G"},
     fitted={"capillary_number_slug": (0.0, 1.4)},
     typical={
         "superficial_velocity_liquid": (5e-3, 0.1),
