@@ -181,6 +181,12 @@ turbulent = 4000
 long = 45 * turbulent / float(tube.reynolds)  # m, for the same stay
 hasty = c.oscillatory_loss("3 1/s", "10 mm", 45 / float(tube.residence_time), 1200, "45 m", "26 mm")
 
+SLUGS = "crystallization.slug_flow_crystallizer"
+slug, gassed = (
+    alone(SLUGS, gas_volume_flow=gas).solve().units["slug_flow_crystallizer"].values
+    for gas in ("8 mL/min", "24 mL/min")
+)
+
 # ---- needles
 NEEDLES = (
     "{{law='power_cooling', temperature_start='50 degC', temperature_end='30 degC', duration='{0}', "

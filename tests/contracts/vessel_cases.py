@@ -19,7 +19,11 @@ from granum.crystallization.equipment.controlled import ControlledBatchCrystalli
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.equipment.needles import NeedleBatchCrystallizer, NeedleCrystallizer
 from granum.crystallization.equipment.oslo import OsloCrystallizer
-from granum.crystallization.equipment.tubes import BaffledTubeCrystallizer, PlugFlowCrystallizer
+from granum.crystallization.equipment.tubes import (
+    BaffledTubeCrystallizer,
+    PlugFlowCrystallizer,
+    SlugFlowCrystallizer,
+)
 from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import NaturalCooling, PowerCooling
@@ -157,6 +161,17 @@ def crystallizers(classes: int) -> dict[str, Case]:
         ),
         "vacuum batch": Cased(
             lambda f, u: VacuumBatchCrystallizer(temperature_program=cooling(f, u), **batch(u))
+        ),
+        "slugs": Cased(
+            lambda f, u: SlugFlowCrystallizer(
+                temperature_program=cooling(f, u),
+                diameter=0.001 + 0.004 * u[1],
+                length=10.0 + 90.0 * u[0],
+                gas_volume_flow=f["feed"].slurry_volume_flow * 3.0 * u[2],
+                slug_length=0.002 + 0.03 * u[4],
+                seed_mass_per_solvent=0.02 * u[3],
+                **laws(u),
+            )
         ),
         "baffled tube": Cased(
             lambda f, u: BaffledTubeCrystallizer(

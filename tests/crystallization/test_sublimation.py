@@ -81,6 +81,10 @@ def test_vapors_in_a_gas_by_plain_iteration() -> None:
         found = np.asarray(vapors_held(others, available, shares))
         assert found == pytest.approx(expected, rel=1e-6, abs=1e-7 * available.sum())
     assert float(vapors_held(0.0, [0.0], [0.5])[0]) == 0.0
+    # whose pressure is above that of the vessel is gas wholly, however the sum is rounded
+    others, available = rng.random((2, 50))
+    for other, there in zip(others, 1e-3 * available, strict=True):
+        assert float(vapors_held(other, [there], [9.0])[0]) == there
 
 
 def _random(rng: np.random.Generator) -> Stream:

@@ -12,9 +12,12 @@ from granum.core.flags import collect
 from granum.core.notices import describe
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.belt import BeltDryer
+from granum.drying.equipment.convective import ConvectiveDryer
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.spray import SprayDryer
+from granum.drying.equipment.well_mixed import WellMixedDryer
 from granum.drying.gas_solid.kinetics import SurfaceKinetics
+from granum.drying.wet_surface import boiled, evaporated
 from granum.streams.audit import closure
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
@@ -103,3 +106,46 @@ def test_a_hydrate_keeps_its_water_of_crystallization(name: str) -> None:
     assert fog < 0.01 * evaporated
     assert float(made.figures.evaporation_rate) == pytest.approx(evaporated, rel=1e-9)
     assert 0.0 < evaporated < 0.02 - 0.02 * 0.36 * (1.0 - SHARE) / SHARE
+
+
+def test_liquor_of_a_hydrate_dries_in_a_mixed_bed_and_by_balance() -> None:
+    """All 20 g of water but the 7.6 g that 7.2 g of salt bind leave; with a heat loss, dry crystals too."""
+    feed = empty(EPSOM, 298.15).replace(
+        solid=jnp.array([[0.0, 0.0], [0.4, 0.6]]) * 0.3, liquid=0.02 * jnp.array([1.0, 0.36])
+    )
+    gas = empty(EPSOM, 330.0).replace(gas=3.0 * jnp.array([1.0, 0.008]))
+    bound = 0.02 * 0.36 * (1.0 - SHARE) / SHARE
+    for dryer in (
+        WellMixedDryer(600.0, 0.5, 500.0),
+        ConvectiveDryer(moisture_outlet=0.0, temperature_inlet=330.0),
+    ):
+        made = dryer.operate(feed=feed, gas=gas)
+        product, exhaust = made.outlets[:2]
+        powers = sum(x for x in made.outlets if not isinstance(x, Stream))
+        closed = closure([feed, gas], [x for x in made.outlets if isinstance(x, Stream)], powers)
+        assert float(closed.mass) < 1e-12
+        assert float(closed.energy) < 1e-9
+        left = float(product.liquid[0]) / 0.02
+        gone = (1.0 - left) * (0.02 - bound)
+        assert float(exhaust.gas[1] - gas.gas[1]) == pytest.approx(gone, rel=1e-4)
+        assert float(made.figures.evaporation_rate) == pytest.approx(gone, rel=1e-4)
+        grown = float(jnp.sum(product.solid[1])) - 0.3
+        assert grown == pytest.approx((1.0 - left) * 0.02 * 0.36 / SHARE, rel=1e-4)
+    dry = feed.replace(liquid=0.0 * feed.liquid)
+    out = WellMixedDryer(600.0, 0.5, 500.0)(dry, gas)
+    assert float(closure([dry, gas], [out.product, out.exhaust], out.heat_duty).energy) < 1e-9
+
+
+@pytest.mark.parametrize("moisture", [0.0, 0.01])
+def test_boiled_liquor_leaves_its_hydrate(moisture: float) -> None:
+    """Contact dryers part a cake so; what little water 0.3 g of it leaves cannot be bound twice."""
+    for water in (0.02, 0.002):
+        feed = empty(EPSOM, 298.15).replace(
+            solid=jnp.array([[0.0, 0.0], [0.4, 0.6]]) * 0.3, liquid=jnp.array([water, 0.0072])
+        )
+        product, vapor = boiled(feed, moisture, 350.0, 373.0, 1e5)
+        parts = product.components + vapor.components - feed.components
+        assert float(jnp.max(jnp.abs(parts))) < 1e-15
+        assert float(product.liquid[0]) == pytest.approx(min(moisture * 0.3, water), abs=1e-15)
+        assert float(evaporated(feed, product)) == pytest.approx(float(vapor.gas[1]), abs=1e-15)
+        assert (float(vapor.gas[1]) > 0.0) == (water == 0.02)

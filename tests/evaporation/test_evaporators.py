@@ -1,8 +1,11 @@
 """Evaporators against a textbook, by hand, and by what always holds."""
 
+import re
+
 import numpy as np
 import pytest
 
+from granum.core.notices import describe
 from granum.evaporation.equipment.evaporator import Evaporator, RecompressionEvaporator
 from granum.evaporation.equipment.multiple_effect import MultipleEffectEvaporator
 from granum.streams.feeding import feed
@@ -129,3 +132,64 @@ def test_every_way_of_the_feed_closes_and_saves_steam(feeding):
 def test_steam_that_is_too_cold_is_refused():
     made = Evaporator("60 m^2", "1 atm", "1.1 bar").operate(feed=brine())
     assert refused(made)
+
+
+GLAUBER = mixture_of(
+    ["water", "sodium sulfate"],
+    ["sodium sulfate decahydrate", "sodium sulfate anhydrous"],
+    ["water"],
+    np.geomspace(1e-5, 4e-3, 7),
+)
+
+
+def sulfate(of=GLAUBER, temperature="60 degC"):
+    parts = {"water": 0.8, "sodium sulfate": 0.2}
+    return feed(of, temperature=temperature, liquid_flow="5 t/h", liquid=parts)
+
+
+def reasons(made):
+    return [row["message"] for row in describe(made.records)]
+
+
+@pytest.mark.parametrize(
+    ("pressure", "steam", "area", "row"), [("1 atm", "1.8 bar", 70.0, 1), ("0.025 bar", "0.2 bar", 15.0, 0)]
+)
+def test_the_hydrate_forms_where_it_is_cold_and_the_anhydrous_salt_where_it_is_hot(
+    pressure, steam, area, row
+):
+    """Transition at 32.4 °C (Lide and others): below it Glauber's salt."""
+    entering = sulfate(temperature="30 degC" if row == 0 else "60 degC")
+    made = Evaporator(area, pressure, steam).operate(feed=entering)
+    assert not refused(made)
+    closes(made, entering)
+    crystals = np.asarray(made.outlets.product.solid_by_species)
+    assert crystals[row] > 0.0
+    assert crystals[1 - row] == 0.0
+    assert float(made.figures.crystal_flow) == pytest.approx(crystals[row], rel=1e-9)
+    assert (float(made.figures.boiling_temperature) > 305.53) == bool(row)
+
+
+def test_what_an_evaporator_cannot_do_names_the_setting_and_its_limit():
+    anhydrous = mixture_of(
+        ["water", "sodium sulfate"], ["sodium sulfate anhydrous"], ["water"], np.geomspace(1e-5, 4e-3, 7)
+    )
+    hydrate = mixture_of(
+        ["water", "sodium sulfate"], ["sodium sulfate decahydrate"], ["water"], np.geomspace(1e-5, 4e-3, 7)
+    )
+
+    def told(area, steam, of=anhydrous):
+        made = RecompressionEvaporator(area, "1 atm", steam).operate(feed=sulfate(of))
+        return made, " ".join(reasons(made))
+
+    large, words = told("200 m^2", "1.8 bar")
+    assert "boils off wholly" in words
+    most = float(re.search(r"… ([\d.]+) m²", words).group(1))
+    assert not refused(told(0.999 * most, "1.8 bar")[0])
+    assert refused(told(1.001 * most, "1.8 bar")[0])
+    assert "Nothing boils" in told("2 m^2", "1.8 bar")[1]
+    low = re.search(r"\[([\d.]+) … ∞ bar\]", told("70 m^2", "1.03 bar")[1]).group(1)
+    assert 1.03 < float(low) < 1.2
+    assert "Another crystal" in told("70 m^2", "1.8 bar", hydrate)[1]
+    # 4 t/h of water go on heat of some 2.2 MJ/kg through 2000 W/(m² K)
+    duty = 2000.0 * most * float(large.figures.temperature_steam - large.figures.boiling_temperature)
+    assert duty == pytest.approx(4000.0 / 3600.0 * 2.24e6 + 5000.0 / 3600.0 * 3500.0 * 44.0, rel=0.05)

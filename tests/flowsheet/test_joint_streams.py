@@ -247,6 +247,15 @@ LIQUOR = {
         "baffle_spacing": "0.12 m",
         "seed_mass_per_solvent": 0.01,
     },
+    "crystallization.slug_flow_crystallizer": GROWTH
+    | {
+        "temperature_program": COOLING,
+        "diameter": "80 mm",
+        "length": 400.0,
+        "gas_volume_flow": "0.5 m3/h",
+        "slug_length": "0.2 m",
+        "seed_mass_per_solvent": 0.01,
+    },
     "crystallization.batch_crystallizer": GROWTH
     | {"temperature_program": COOLING, "duration": "1 hour", "seed_mass_per_solvent": 0.01},
     "crystallization.classified_crystallizer": GROWTH | {"temperature": "30 degC", "volume": 2.0},

@@ -6,10 +6,13 @@ An independent route: ions at infinite dilution less the crystal, water of cryst
 
 from __future__ import annotations
 
+import math
 import tomllib
 from importlib.resources import files
 
 import pytest
+
+from granum.materials.library import session
 
 IONS = {
     "K": -252.38,
@@ -27,6 +30,8 @@ IONS = {
     "IO3": -221.3,
     "SO4": -909.27,
     "CO3": -677.14,
+    "H2PO4": -1296.29,
+    "Fe(CN)6": 561.9,
     "water": -285.83,
 }
 CRYSTALS = [
@@ -42,6 +47,8 @@ CRYSTALS = [
     ("ammonium chloride", -314.43, "NH4 Cl"),
     ("ammonium nitrate", -365.56, "NH4 NO3"),
     ("silver nitrate", -124.39, "Ag NO3"),
+    ("ammonium dihydrogen phosphate", -1445.07, "NH4 H2PO4"),
+    ("potassium ferricyanide", -249.8, "K K K Fe(CN)6"),
     ("rubidium bromide", -394.59, "Rb Br"),
     ("rubidium nitrate", -495.05, "Rb NO3"),
     ("cesium chloride", -443.04, "Cs Cl"),
@@ -69,6 +76,20 @@ def test_heat_of_solution_is_the_difference_of_formation_enthalpies(crystal, for
     assert heats()[crystal] / 1e3 == pytest.approx(
         difference, rel=0.01, abs=2.4 if "deca" in crystal else 0.4
     )
+
+
+@pytest.mark.parametrize(
+    "name", ["ammonium dihydrogen phosphate", "potassium ferricyanide", "sodium oxalate"]
+)
+def test_the_slope_of_the_solubility_bears_out_heats_that_stand_alone(name):
+    """Last heat in the saturated solution, ν R T² d ln a/dT: lower than the first one where activities fall
+    behind the ideal, and never above the ideal slope (three salts, from CRC solubilities).
+    """
+    system, T = session().solute(name), 298.15
+    ions = {"ammonium dihydrogen phosphate": 2, "potassium ferricyanide": 4, "sodium oxalate": 3}[name]
+    cold, warm = (math.log(float(system.value(T + d))) for d in (-2.0, 2.0))
+    ideal = ions * 8.314e-3 * (warm - cold) / (1.0 / (T - 2.0) - 1.0 / (T + 2.0))
+    assert 0.4 * ideal < heats()[name] / 1e3 < 1.4 * ideal
 
 
 WATEQ4F = {

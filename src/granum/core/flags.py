@@ -183,6 +183,17 @@ def unsolved(converged: Any, card: Any, name: str = "iteration", reason: str = "
     )
 
 
+def beyond(
+    mask: Any, value: Any, name: str, card: Any, low: Any = -np.inf, high: Any = np.inf, reason: str = ""
+) -> None:
+    """Inside a unit: record that a setting, such as its area, lies beyond what the other inputs allow;
+    ``card`` and ``reason`` as for ``unsolved``, limits as for ``impossible``.
+    """
+    record(
+        OUTSIDE_DOMAIN, mask, value, name, card.key, source=card.source, reason=reason, computed=(low, high)
+    )
+
+
 def extrapolated(
     mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = ""
 ) -> None:

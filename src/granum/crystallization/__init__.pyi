@@ -138,6 +138,8 @@ from granum.crystallization.equipment.tubes import (
     Passed as Passed,
     PlugFlowCrystallizer as PlugFlowCrystallizer,
     PlugFlowFigures as PlugFlowFigures,
+    SlugFlowCrystallizer as SlugFlowCrystallizer,
+    SlugTubeFigures as SlugTubeFigures,
     Spread as Spread,
     Tube as Tube,
 )
@@ -349,6 +351,10 @@ from granum.crystallization.formulas.seeding import (
     seed_chart as seed_chart,
     seed_loading_critical as seed_loading_critical,
     seed_mass_for_product as seed_mass_for_product,
+)
+from granum.crystallization.formulas.slugs import (
+    SlugFlow as SlugFlow,
+    slug_flow as slug_flow,
 )
 from granum.crystallization.formulas.solubility_laws import (
     AntisolventSolubility as AntisolventSolubility,

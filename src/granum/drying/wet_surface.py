@@ -7,6 +7,7 @@ from typing import Any
 import jax.numpy as jnp
 
 from granum.core.limits import Limit
+from granum.drying.gas_solid.liquor import crystallizing
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
@@ -28,11 +29,10 @@ def as_specified(feed: Stream, moisture: Any) -> dict[str, Any]:
 def boiled(feed: Stream, moisture: Any, T_product: Any, T_vapor: Any, pressure: Any) -> tuple[Stream, Stream]:
     """Product of a moisture (never above the feed's), and what evaporates as a stream of vapor."""
     humid = HumidMixture(feed.mixture, alone=True)
-    left = jnp.minimum(moisture * feed.solid_flow, feed.liquid[0])
+    share = dried_share(feed, moisture)
     nothing = jnp.zeros_like(feed.gas)
-    rest = crystallized(feed, 1.0 - safe_divide(left, feed.liquid[0], 1.0))
-    product = rest.replace(gas=nothing, temperature=jnp.asarray(T_product, dtype=float))
-    gas = feed.gas.at[humid.vapor].add(feed.liquid[0] - left)
+    product = crystallized(feed, share).replace(gas=nothing, temperature=jnp.asarray(T_product, dtype=float))
+    gas = feed.gas.at[humid.vapor].add(leaving(feed, share))
     vapor = feed.replace(
         solid=jnp.zeros_like(feed.solid),
         liquid=jnp.zeros_like(feed.liquid),
@@ -43,22 +43,39 @@ def boiled(feed: Stream, moisture: Any, T_product: Any, T_vapor: Any, pressure: 
     return product, vapor
 
 
+def dried_share(feed: Stream, moisture: Any) -> Any:
+    """Of the liquor that is gone where so much of its solvent is left per solid of the feed."""
+    left = jnp.minimum(moisture * feed.solid_flow, feed.liquid[0])
+    return 1.0 - safe_divide(left, feed.liquid[0], 1.0)
+
+
+def _wanted(wet: Stream) -> Any:
+    """Solvent that all that is dissolved would bind in its crystals, kg/s."""
+    return sum((place.bound * wet.liquid[i] for i, place in crystallizing(wet.mixture)), jnp.zeros(()))
+
+
+def leaving(wet: Stream, share: Any) -> Any:
+    """Solvent that leaves as vapor with a share of the liquor: not what hydrates bind."""
+    return share * jnp.maximum(wet.liquid[0] - _wanted(wet), 0.0)
+
+
+def evaporated(feed: Stream, product: Stream) -> Any:
+    """Solvent that has left a feed as vapor, kg/s."""
+    return leaving(feed, 1.0 - safe_divide(product.liquid[0], feed.liquid[0], 1.0))
+
+
 def crystallized(wet: Stream, share: Any) -> Stream:
-    """Less a share of the liquid that evaporates (the first), with the same share of each solute on the solid
-    of its own name, where there is one.
+    """Less a share of the liquor, whose solutes are left on crystals of their kind, hydrates with their water
+    as far as there is any; a second solvent stays.
     """
-    m = wet.mixture
     solid, liquid = wet.solid, wet.liquid.at[0].multiply(1.0 - share)
-    names = [species.name for species in m.solids]
-    for i, species in enumerate(m.liquids[1:], start=1):
-        if species.name in names:
-            row = names.index(species.name)
-            there = jnp.sum(solid[row])
-            spread = jnp.where(
-                there > 0, solid[row] / jnp.where(there > 0, there, 1.0), 1.0 / solid[row].size
-            )
-            solid, liquid = (
-                solid.at[row].add(wet.liquid[i] * share * spread),
-                liquid.at[i].multiply(1.0 - share),
-            )
+    enough = jnp.minimum(safe_divide(wet.liquid[0], _wanted(wet), 1.0), 1.0)
+    for i, place in crystallizing(wet.mixture):
+        there = jnp.sum(solid[place.row])
+        spread = jnp.where(
+            there > 0, solid[place.row] / jnp.where(there > 0, there, 1.0), 1.0 / solid[place.row].size
+        )
+        gone = share * (enough if place.bound > 0.0 else 1.0)
+        crystals = gone * wet.liquid[i] * (1.0 + place.bound)
+        solid, liquid = solid.at[place.row].add(crystals * spread), liquid.at[i].multiply(1.0 - gone)
     return wet.replace(solid=solid, liquid=liquid)

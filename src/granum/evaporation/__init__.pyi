@@ -2,6 +2,7 @@
 
 from granum.evaporation.boiling import (
     Effect as Effect,
+    Forming as Forming,
     Liquor as Liquor,
 )
 from granum.evaporation.equipment.evaporator import (

@@ -7,14 +7,17 @@ crystallizes, and the solution left has one boiling point at the pressure; it mu
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 
 from granum.core.errors import CaseError
 from granum.core.i18n import _
 from granum.crystallization.equipment.roles import Roles, roles, with_crystals
 from granum.materials.fluids import Fluid
+from granum.materials.solutes import Branch
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
@@ -27,8 +30,10 @@ SPAN = 80.0  # K above the boiling point of the solvent within which a solution 
 
 
 class Effect(NamedTuple):
-    """What happens in one effect; ``found`` is whether a boiling solution was found, ``left`` the share of
-    the solvent that stays.
+    """What happens in one effect; ``crystals`` are those that form, ``taken`` is the heat with which what
+    leaves was made: the duty, unless that is more than boils off the solvent or less than warms the feed;
+    ``found`` is whether a boiling solution was found, ``left`` the share that stays of the solvent that no
+    crystal binds.
     """
 
     temperature: Any
@@ -39,16 +44,31 @@ class Effect(NamedTuple):
     product: Stream
     vapor: Stream
     duty: Any
+    taken: Any
     found: Any
     left: Any
 
 
 class _Split(NamedTuple):
-    """Evaporation and crystals at a temperature, and solute per solvent in what is left."""
+    """Evaporation and each crystal at a temperature, the liquid that is left, and how much could evaporate:
+    not what a hydrate binds.
+    """
 
     evaporation: Any
-    crystals: Any
+    crystals: list[Any]
     liquid: Any
+    most: Any
+
+
+class Forming(NamedTuple):
+    """A crystal of the solute: who plays which part, its branch of the solubility, and the temperatures
+    between which no other crystal of the solute forms, K.
+    """
+
+    roles: Roles
+    branch: Branch
+    low: float
+    high: float
 
 
 @dataclass(frozen=True)
@@ -95,17 +115,43 @@ class Liquor:
         return self.mixture.index("gases", self.mixture.liquids[0].name)
 
     @property
-    def crystal(self) -> tuple[Roles, Any] | None:
-        """The crystal that forms and its solubility curve; None where no solid comes of a solute."""
-        m = self.mixture
+    def crystals(self) -> list[Forming]:
+        """Crystals of the first solute that has any among the solids, the one stable in the cold first."""
+        m, found = self.mixture, []
         dissolved = {s.name for s in m.liquids[1:]}
         for solid in m.solids:
             if dissolved & {name for name, _share in solid.composition}:
-                found = roles(m, solid.name, "")
-                system = solute_system(m.materials, m.liquids[found.solute].name, (self.solvent.name,))
-                if system is not None:
-                    return found, system.branch(solid.name).value
-        return None
+                role = roles(m, solid.name, "")
+                system = solute_system(m.materials, m.liquids[role.solute].name, (self.solvent.name,))
+                if system is None or (found and found[0].roles.solute != role.solute):
+                    continue
+                ends = [-jnp.inf, *(b.stable_from for b in system.branches[1:]), jnp.inf]
+                for branch, (low, high) in zip(system.branches, pairwise(ends), strict=True):
+                    if branch.crystal.name == solid.name:
+                        found.append(Forming(role, branch, low, high))
+        return sorted(found, key=lambda f: f.low)
+
+    def stable(self, T: Any) -> list[Any]:
+        """Which of the crystals forms at a temperature: of those there are, the one next to it."""
+        starts = [-jnp.inf, *(f.low for f in self.crystals[1:]), jnp.inf]
+        return [(low <= T) & (high > T) for low, high in pairwise(starts)][: len(self.crystals)]
+
+    def among(self, T: Any) -> tuple[Any, Any]:
+        """Temperatures between which the crystal that forms is the right one, K."""
+        low, high = jnp.asarray(-jnp.inf), jnp.asarray(jnp.inf)
+        for h, f in zip(self.stable(T), self.crystals, strict=True):
+            low, high = jnp.where(h, f.low, low), jnp.where(h, f.high, high)
+        return low, high
+
+    def saturation(self, product: Stream) -> Any:
+        """The largest concentration of a solute of the library over its solubility."""
+        m, T, solvent = self.mixture, product.temperature, jnp.maximum(product.liquid[0], 1e-300)
+        over = [jnp.zeros(())]
+        for i, liquid in enumerate(m.liquids[1:], start=1):
+            system = solute_system(m.materials, liquid.name, (self.solvent.name,))
+            if system is not None:
+                over.append(product.liquid[i] / solvent / system.value(T))
+        return jnp.max(jnp.stack(over))
 
     def excess(self, T: Any, pure: Any, liquid: Any) -> Any:
         """How far a solution lies above its boiling point: in kelvin with given coefficients, else as the
@@ -123,24 +169,32 @@ class Liquor:
 
     def split(self, feed: Stream, heat: Any, T: Any) -> _Split:
         """What boils off and crystallizes where feed and heat are brought to a temperature."""
+        forming = self.crystals
+        if forming:
+            each = [self._with(forming, k, feed, heat, T) for k in range(len(forming))]
+            here = self.stable(T)
+            return jax.tree.map(
+                lambda *x: sum(jnp.where(h, v, 0.0) for h, v in zip(here, x, strict=True)), *each
+            )
+        liquid, gas = (self.mixture.enthalpies(phase, T) for phase in ("liquids", "gases"))
+        given = feed.enthalpy_flow + heat - feed.enthalpy_at(T)
+        gone = jnp.clip(given / (gas[self.vapor] - liquid[0]), 0.0, DRIEST * feed.liquid[0])
+        return _Split(gone, [], feed.liquid.at[0].add(-gone), feed.liquid[0])
+
+    def _with(self, forming: list[Forming], k: int, feed: Stream, heat: Any, T: Any) -> _Split:
+        """The same where one of the crystals forms; others of the solute go into solution."""
         liquid, solid, gas = (self.mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
         latent = gas[self.vapor] - liquid[0]
-        crystal, dissolved = self.crystal, feed.liquid
-        before = jnp.zeros(())
-        if crystal is not None:
-            r = crystal[0]
-            before = jnp.sum(feed.solid[r.solid])
-            x = r.solute_fraction
+        dissolved, given = feed.liquid, feed.enthalpy_flow + heat - feed.enthalpy_at(T)
+        for r in (f.roles for f in forming):
+            before, x = jnp.sum(feed.solid[r.solid]), r.solute_fraction
             dissolved = dissolved.at[r.solute].add(x * before).at[0].add((1.0 - x) * before)
-        apart = feed.enthalpy_at(T)
-        most = DRIEST * dissolved[0]
-        if crystal is None:
-            gone = jnp.clip((feed.enthalpy_flow + heat - apart) / latent, 0.0, most)
-            return _Split(gone, before, dissolved.at[0].add(-gone))
-        r, curve = crystal
-        x, saturated = r.solute_fraction, curve(T)
+            given = given + before * (solid[r.solid] - x * liquid[r.solute] - (1.0 - x) * liquid[0])
+        r, saturated = forming[k].roles, forming[k].branch.value(T)
+        x = r.solute_fraction
+        free = jnp.maximum(dissolved[0] - (1.0 - x) / x * dissolved[r.solute], 0.0)
+        most = DRIEST * free
         lower = solid[r.solid] - x * liquid[r.solute] - (1.0 - x) * liquid[0]
-        given = feed.enthalpy_flow + heat - apart + before * lower
         alone = given / latent
         room = jnp.maximum(x - saturated * (1.0 - x), 1e-6)
         over = (dissolved[r.solute] - saturated * dissolved[0]) / room
@@ -150,7 +204,7 @@ class Liquor:
         formed = jnp.where(full, over + saturated * gone / room, 0.0)
         formed = jnp.clip(formed, 0.0, dissolved[r.solute] / x)
         left = dissolved.at[r.solute].add(-x * formed).at[0].add(-gone - (1.0 - x) * formed)
-        return _Split(gone, formed, left)
+        return _Split(gone, [formed if i == k else jnp.zeros(()) for i in range(len(forming))], left, free)
 
 
 def boil(liquor: Liquor, feed: Stream, chest: Any, pure: Any, conductance: Any, sizes: LogNormal) -> Effect:
@@ -167,23 +221,26 @@ def boil(liquor: Liquor, feed: Stream, chest: Any, pure: Any, conductance: Any, 
     T = root.value
     duty = conductance * (chest - T)
     made = liquor.split(feed, duty, T)
-    liquor.excess(T, pure, made.liquid)  # once more where its flags are heard
-    solid = feed.solid
-    if (crystal := liquor.crystal) is not None:
-        inner = tuple(range(1, feed.solid[0].ndim))
-        fed = jnp.sum(feed.solid[crystal[0].solid], axis=inner)
+    # once more where its flags are heard; no solution boils where one crystal gives way to another
+    boils = jnp.abs(liquor.excess(T, pure, made.liquid)) < 1e-6
+    solid, grown = feed.solid, jnp.zeros(())
+    for forming, crystals in zip(liquor.crystals, made.crystals, strict=True):
+        role = forming.roles
+        fed = jnp.sum(feed.solid[role.solid], axis=tuple(range(1, feed.solid[0].ndim)))
         before = jnp.sum(fed)
-        kept = fed * jnp.minimum(safe_divide(made.crystals, before, 0.0), 1.0)
+        kept = fed * jnp.minimum(safe_divide(crystals, before, 0.0), 1.0)
         passing = sizes(jnp.asarray(mixture.edges)).at[0].set(0.0).at[-1].set(1.0)
-        fresh = jnp.diff(passing) * jnp.maximum(made.crystals - before, 0.0)
-        solid = with_crystals(feed, crystal[0], kept + fresh)
+        fresh = jnp.diff(passing) * jnp.maximum(crystals - before, 0.0)
+        solid = with_crystals(feed.replace(solid=solid), role, kept + fresh)
+        grown = grown + jnp.maximum(crystals - before, 0.0)
     pressure = liquor.vapor_pressure(pure)
     product = feed.replace(solid=solid, liquid=made.liquid, temperature=T, pressure=pressure)
     steam = empty(mixture, T).replace(pressure=pressure)
     vapor = steam.replace(gas=steam.gas.at[liquor.vapor].set(made.evaporation))
-    left = safe_divide(made.liquid[0], made.liquid[0] + made.evaporation, 1.0)
+    left = 1.0 - safe_divide(made.evaporation, made.most, 0.0)
+    taken = product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow
     return Effect(
-        T, pure, pressure, made.evaporation, made.crystals, product, vapor, duty, root.converged, left
+        T, pure, pressure, made.evaporation, grown, product, vapor, duty, taken, root.converged & boils, left
     )
 
 

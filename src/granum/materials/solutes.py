@@ -188,6 +188,10 @@ class SoluteSystem(eqx.Module):
             self.branch(crystal).solubility(T) if crystal else self._select(T, lambda b, t: b.solubility(t))
         )
 
+    def value(self, temperature: Any) -> Any:
+        """Saturation over the stable crystal, without flags and beyond the data, as of ``Branch.value``."""
+        return self._select(temperature, lambda b, t: b.value(t))
+
     @property
     def data_range(self) -> tuple[float, float]:
         """Lowest and highest temperature of the solubility data, K."""

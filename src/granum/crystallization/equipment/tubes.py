@@ -15,6 +15,7 @@ from granum.core import equipment
 from granum.core.kinds import (
     Concentration,
     Distance,
+    Fraction,
     Frequency,
     Length,
     MassFlow,
@@ -24,7 +25,10 @@ from granum.core.kinds import (
     PressureDrop,
     Ratio,
     SpecificPower,
+    SurfaceTension,
     Time,
+    Velocity,
+    VolumeFlow,
     Within,
 )
 from granum.core.limits import Limit
@@ -37,6 +41,7 @@ from granum.crystallization.equipment.batch import (
     thermal,
 )
 from granum.crystallization.equipment.roles import Roles, roles
+from granum.crystallization.formulas.slugs import SlugFlow, slug_flow
 from granum.crystallization.formulas.tubes import OrificeArea, oscillatory_flow, oscillatory_loss
 from granum.crystallization.kinds import Program, VesselVolume
 from granum.crystallization.population.lagrangian import Course
@@ -46,7 +51,7 @@ from granum.numerics.smooth import safe_divide
 from granum.streams.stirrers import slurry_density
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
-from granum.streams.utilities import COOLED, HEATED, STIRRED
+from granum.streams.utilities import COOLED, HEATED, PUMPED, STIRRED, pumped
 
 PARCELS = 5
 FEWEST_TANKS = 3.0  # below which the cube root of a stay is no longer near normal
@@ -132,11 +137,11 @@ class Tube(ChargedVessel):
     )
 
     @abstractmethod
-    def _held(self) -> Any:
-        """Volume of the tube, m³."""
+    def _held(self, feed: Stream) -> Any:
+        """Volume of the suspension in the tube, m³."""
 
     def _time(self, feed: Stream) -> Any:
-        return safe_divide(self._held(), feed.slurry_volume_flow)
+        return safe_divide(self._held(feed), feed.slurry_volume_flow)
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)
@@ -182,7 +187,7 @@ class PlugFlowCrystallizer(Tube):
 
     utilities: ClassVar[Utilities] = HEATED | COOLED
 
-    def _held(self) -> Any:
+    def _held(self, feed: Stream) -> Any:
         return self.volume
 
     def figures(self, inside: Any, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
@@ -253,7 +258,7 @@ class BaffledTubeCrystallizer(Tube):
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
-    def _held(self) -> Any:
+    def _held(self, feed: Stream) -> Any:
         return 0.25 * jnp.pi * self.diameter**2 * self.length
 
     def figures(self, inside: Any, outlets: BatchOutlets, feed: Stream) -> BaffledTubeFigures:
@@ -279,6 +284,97 @@ class BaffledTubeCrystallizer(Tube):
     def drawn(
         self, inside: Any, outlets: BatchOutlets, figures: BaffledTubeFigures, feed: Stream
     ) -> dict[str, Any]:
-        mass = self._held() * slurry_density(outlets.product)
+        mass = self._held(feed) * slurry_density(outlets.product)
         moved = {"electric_power_agitator": figures.specific_power_input * mass}
+        return thermal(outlets.heat_duty, feed, outlets.product) | moved
+
+
+class SlugTubeFigures(NamedTuple):
+    """Figures of a tube with slugs."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Ratio
+    magma_density: Concentration
+    relative_supersaturation_maximum: Number
+    mean_diameter_mass: Distance
+    nuclei_mass_fraction: Ratio
+    residence_time: Time
+    heat_duty: Power
+    velocity_bubble: Velocity
+    film_thickness_slug: Length
+    gas_fraction_slug: Fraction
+    bubble_length: Length
+    slug_frequency: Frequency
+    capillary_number_slug: Ratio
+    eotvos_number: Ratio
+    reynolds: Ratio
+    pressure_drop: PressureDrop
+
+
+@equipment(
+    "slug_flow_crystallizer",
+    source="jiang2014; aussillous2000; kreutzer2005; wilson1931",
+    title="Slug-flow tube crystallizer",
+    equation=r"\tau = \frac{A L\,(1-\varepsilon)}{\dot V_L},\quad \varepsilon = \frac{\dot V_G}{A\,U_b}",
+)
+class SlugFlowCrystallizer(Tube):
+    """Plug flow crystallizer of a narrow tube in which bubbles of gas part the suspension into slugs, each
+    one a small vessel stirred by its own circulation.
+
+    The temperature along the tube is given by a program of the time since the inlet. Gas and liquid meet at
+    the inlet and slugs form by themselves; their length is measured, or chosen where the gas comes in pulses.
+    The flow of the gas is that at the pressure of the tube, in which it takes up neither heat nor vapor. The
+    stay is that of the liquid, which the gas shortens. The kinetics must be those of this gentle mixing.
+    What the film at the wall passes from slug to slug is left out, or spread by ``tank_number_tube`` as in
+    ``plug_flow_crystallizer``. Above an Eötvös number of about 3.4 bubbles rise in the liquid.
+    """
+
+    diameter: Length
+    length: Length
+    gas_volume_flow: VolumeFlow
+    slug_length: Length
+    surface_tension: SurfaceTension = eqx.field(kw_only=True, default=0.072)
+
+    limits: ClassVar[Limits] = BatchVessel.limits | {
+        "held": Limit("Eötvös number of the tube", 0.0, 3.37, "dimensionless", "bretherton1961"),
+        "film": Limit("capillary number of the bubbles", 0.0, 1.4, "dimensionless", "aussillous2000"),
+    }
+
+    utilities: ClassVar[Utilities] = PUMPED | HEATED | COOLED
+
+    def _flow(self, feed: Stream) -> SlugFlow:
+        """Of the feed and the gas."""
+        area = 0.25 * jnp.pi * self.diameter**2
+        return slug_flow(
+            feed.slurry_volume_flow / area,
+            self.gas_volume_flow / area,
+            self.diameter,
+            self.length,
+            self.slug_length,
+            slurry_density(feed),
+            feed.liquid_viscosity,
+            self.surface_tension,
+        )
+
+    def _held(self, feed: Stream) -> Any:
+        gas = self._flow(feed).gas_fraction_slug
+        return 0.25 * jnp.pi * self.diameter**2 * self.length * (1.0 - gas)
+
+    def figures(self, inside: Any, outlets: BatchOutlets, feed: Stream) -> SlugTubeFigures:
+        crystals = self._figures(inside, outlets.product, feed)
+        flow = self._flow(feed)
+        return SlugTubeFigures._make((*crystals, self._time(feed), outlets.heat_duty, *flow))
+
+    def measured(
+        self, inside: Any, outlets: BatchOutlets, figures: SlugTubeFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {
+            "held": figures.eotvos_number,
+            "film": figures.capillary_number_slug,
+        }
+
+    def drawn(
+        self, inside: Any, outlets: BatchOutlets, figures: SlugTubeFigures, feed: Stream
+    ) -> dict[str, Any]:
+        moved = {"electric_power_pump": pumped(feed.slurry_volume_flow, figures.pressure_drop)}
         return thermal(outlets.heat_duty, feed, outlets.product) | moved

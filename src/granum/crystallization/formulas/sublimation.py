@@ -135,7 +135,8 @@ def vapors_held(others: Any, available: Any, shares: Any) -> Any:
         return moles - others - jnp.sum(jnp.minimum(available, shares * moles))
 
     lowest = jnp.maximum(others, TRACE * top)
-    near = jnp.where(missing(lowest) < 0.0, find_root(missing, lowest, top).value, lowest)
+    # a little above the highest, which may miss zero by rounding
+    near = jnp.where(missing(lowest) < 0.0, find_root(missing, lowest, 1.001 * top).value, lowest)
     # which vapors are all gas is known now, and what the others hold follows without error
     spent = available <= shares * near
     free = 1.0 - jnp.sum(jnp.where(spent, 0.0, shares))

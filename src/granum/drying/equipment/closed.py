@@ -34,7 +34,7 @@ from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.drying.balances.savings import vapor_recompression
 from granum.drying.kinds import LostHeat
-from granum.drying.wet_surface import AS_SPECIFIED, boiled
+from granum.drying.wet_surface import AS_SPECIFIED, boiled, dried_share, evaporated, leaving
 from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import steam_enthalpy
 from granum.numerics import find_root, safe_divide
@@ -427,7 +427,7 @@ class ClosedDryer(Unit):
     )
 
     def inside(self, feed: Stream) -> Circuit:
-        water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
+        water = leaving(feed, dried_share(feed, self.moisture_outlet))
         found = self.drying_circuit.run(
             Duty(
                 water,
@@ -450,7 +450,7 @@ class ClosedDryer(Unit):
 
     def figures(self, inside: Circuit, outlets: ClosedOutlets, feed: Stream) -> ClosedFigures:
         c = inside
-        water = feed.liquid[0] - c.product.liquid[0]
+        water = evaporated(feed, c.product)
         bought = jnp.maximum(c.heater, 0.0) + outlets.shaft_power
         return ClosedFigures(
             evaporation_rate=water,

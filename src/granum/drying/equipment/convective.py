@@ -29,7 +29,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.drying.equipment.well_mixed import evaporate
 from granum.drying.kinds import LostHeat
-from granum.drying.wet_surface import AS_SPECIFIED
+from granum.drying.wet_surface import AS_SPECIFIED, evaporated
 from granum.numerics import find_root, safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
@@ -284,7 +284,7 @@ class ConvectiveDryer(Unit):
         self, inside: Inside, outlets: ConvectiveOutlets, feed: Stream, gas: Stream
     ) -> ConvectiveFigures:
         found = inside
-        W = feed.liquid[0] - found.product.liquid[0]
+        W = evaporated(feed, found.product)
         bought = found.heater + self.fan_power
         energy = safe_divide(bought, W)
         humid = HumidMixture(feed.mixture)

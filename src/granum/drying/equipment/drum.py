@@ -33,7 +33,7 @@ from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.formulas.contact_drying import moisture_dry_basis_after
 from granum.drying.formulas.scrapers import shaft_power_scraper
-from granum.drying.wet_surface import boiled
+from granum.drying.wet_surface import boiled, evaporated
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import safe_divide
@@ -203,7 +203,7 @@ class DrumDryer(Unit):
 
     def figures(self, inside: dict[str, Any], outlets: ContactDried, feed: Stream) -> DrumFigures:
         film = inside
-        water = feed.liquid[0] - outlets.product.liquid[0]
+        water = evaporated(feed, outlets.product)
         duty = outlets.heat_duty / (1.0 - self.heat_loss_share)
         steam = duty / water_heat_of_vaporization(film["wall"])
         return DrumFigures(

@@ -47,7 +47,7 @@ from granum.drying.formulas.contact_drying import (
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
 from granum.drying.gas_solid.dryer import ready
 from granum.drying.profile_charts import contact_chart
-from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled
+from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled, evaporated
 from granum.numerics import Root, find_root, safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
@@ -308,7 +308,7 @@ class PaddleDryer(Unit):
     def figures(self, inside: Heated, outlets: ContactDried, feed: Stream) -> PaddleFigures:
         boiling, wall, coefficient = inside.heat[:3]
         bed, area = inside.curve, inside.area
-        water = feed.liquid[0] - outlets.product.liquid[0]
+        water = evaporated(feed, outlets.product)
         time = area * self.dry_mass_per_area / feed.solid_flow
         return PaddleFigures(
             evaporation_rate=water,

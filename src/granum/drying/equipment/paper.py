@@ -40,7 +40,7 @@ from granum.drying.formulas.paper import evaporation_per_area_tappi, heat_transf
 from granum.drying.gas_solid.dryer import ready
 from granum.drying.isotherms.paper import Heikkila
 from granum.drying.web_path import Air, Phase, in_its_own_vapor, no_contact, web_of
-from granum.drying.wet_surface import boiled
+from granum.drying.wet_surface import boiled, evaporated
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import find_root, safe_divide
@@ -179,7 +179,7 @@ class PaperMachine(Unit):
 
     def figures(self, inside: dict[str, Any], outlets: PaperDried, feed: Stream, gas: Stream) -> PaperFigures:
         s, humid = inside, HumidMixture(gas.mixture)
-        water = feed.liquid[0] - outlets.product.liquid[0]
+        water = evaporated(feed, outlets.product)
         cylinders = s["passage"].heat * s["area_rate"]
         kept = 1.0 - self.heat_loss_share
         steam = outlets.heat_duty / kept / water_heat_of_vaporization(s["steam"])

@@ -44,7 +44,7 @@ from granum.drying.gas_solid.column import Zone, mean_moisture, pass_zones
 from granum.drying.gas_solid.dryer import ready
 from granum.drying.gas_solid.kinetics import VanMeelKinetics
 from granum.drying.gas_solid.matter import Matter
-from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled
+from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled, dried_share, leaving
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
@@ -164,7 +164,7 @@ class TrayDryer(Unit):
     def inside(self, feed: Stream, gas: Stream) -> dict[str, Any]:
         """Air, flux and time."""
         T, humid = jnp.asarray(self.temperature_inlet), HumidMixture(gas.mixture)
-        water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
+        water = leaving(feed, dried_share(feed, self.moisture_outlet))
         moist = gas.replace(gas=gas.gas.at[humid.vapor].add(water), temperature=T)
         w, c = humid.humidity_ratio(moist), moist.gas_heat_capacity
         flux = self.gas_velocity * moist.gas_density

@@ -30,7 +30,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.drying.formulas.contact_layers import ContactLayer, contact_layer_drying
-from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled
+from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled, evaporated
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
@@ -166,7 +166,7 @@ class VacuumShelfDryer(Unit):
 
     def outlets(self, inside: Boiling, feed: Stream) -> ShelfDried:
         product, vapor = self.parted(inside, feed)
-        gone = feed.liquid[0] - product.liquid[0]
+        gone = evaporated(feed, product)
         condensate = vapor.replace(
             liquid=jnp.zeros_like(feed.liquid).at[0].set(gone),
             gas=feed.gas,
@@ -191,7 +191,7 @@ class VacuumShelfDryer(Unit):
 
     def figures(self, inside: Boiling, outlets: ShelfDried, feed: Stream) -> ShelfFigures:
         product, vapor = self.parted(inside, feed)
-        water = feed.liquid[0] - product.liquid[0]
+        water = evaporated(feed, product)
         cycle = self.loading_time + inside.warming + inside.layer.drying_time
         batch = feed.solid_flow * cycle
         area = batch / inside.load

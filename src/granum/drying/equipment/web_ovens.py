@@ -44,7 +44,7 @@ from granum.drying.gas_solid.dryer import ready
 from granum.drying.gas_solid.steam import is_steam
 from granum.drying.isotherms.paper import Heikkila
 from granum.drying.web_path import Air, Phase, in_its_own_vapor, no_contact, web_of
-from granum.drying.wet_surface import boiled
+from granum.drying.wet_surface import boiled, evaporated
 from granum.numerics import find_root, safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import COLDEST, HOTTEST, HumidMixture
@@ -155,7 +155,7 @@ class AbstractWebOven(Unit):
 
     def figures(self, inside: dict[str, Any], outlets: WebDried, feed: Stream, gas: Stream) -> WebFigures:
         s, humid = inside, HumidMixture(gas.mixture)
-        water = feed.liquid[0] - outlets.product.liquid[0]
+        water = evaporated(feed, outlets.product)
         heater = (outlets.heat_duty - s["radiant"]) / (1.0 - self.heat_loss_share)
         electric = s["radiant"] / self._efficiency
         return WebFigures(

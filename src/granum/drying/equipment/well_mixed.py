@@ -10,9 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.errors import CaseError
 from granum.core.flags import unsolved
-from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     HumidityRatio,
@@ -28,7 +26,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.drying.gas_solid.dryer import Dried
 from granum.drying.kinds import LostHeat
-from granum.drying.wet_surface import crystallized
+from granum.drying.wet_surface import crystallized, evaporated, leaving
 from granum.humid_gas.relations import wet_bulb_balance
 from granum.numerics import find_root, safe_divide
 from granum.particles.formulas.numbers import reynolds_number
@@ -128,7 +126,7 @@ class WellMixedDryer(Unit):
 
         root = find_root(surplus, coldest, gas.temperature, tolerance=1e-13)
         unsolved(root.converged | (water <= 0), type(self).card, reason=UNSOLVED)
-        T = jnp.where(water > 0, root.value, wet.temperature)
+        T = jnp.where(water > 0, root.value, wet.at_enthalpy(enthalpy).temperature)
         return after(jnp.clip(by_energy(T), 0.0, water), T)
 
     def outlets(self, inside: Stream, feed: Stream, gas: Stream) -> Dried:
@@ -167,7 +165,7 @@ class WellMixedDryer(Unit):
     def figures(self, inside: Stream, outlets: Dried, feed: Stream, gas: Stream) -> WellMixedFigures:
         humid, exhaust = HumidMixture(feed.mixture), outlets.exhaust
         return WellMixedFigures(
-            evaporation_rate=feed.liquid[0] - outlets.product.liquid[0],
+            evaporation_rate=evaporated(feed, outlets.product),
             moisture_dry_basis=outlets.product.moisture_dry_basis,
             temperature=outlets.product.temperature,
             humidity_ratio=humid.humidity_ratio(exhaust),
@@ -192,17 +190,8 @@ class WellMixedDryer(Unit):
 
 
 def evaporate(wet: Stream, share: Any) -> Stream:
-    """Move a share of the liquid that evaporates into the gas; the same share of each solute crystallizes on
-    the solid of its own name. A second solvent stays.
+    """Move a share of the liquor into the gas; what was dissolved in it crystallizes. A second solvent
+    stays.
     """
-    m = wet.mixture
-    fluids = m.materials.names("fluid")
-    for solute in m.liquids[1:]:
-        if solute.name not in fluids and solute.name not in [s.name for s in m.solids]:
-            raise CaseError(
-                _("'{solute}' stays where its liquid dries: add it to the solids of the mixture.").format(
-                    solute=solute.name
-                )
-            )
-    gas = wet.gas.at[HumidMixture(m).vapor].add(wet.liquid[0] * share)
+    gas = wet.gas.at[HumidMixture(wet.mixture).vapor].add(leaving(wet, share))
     return crystallized(wet, share).replace(gas=gas)

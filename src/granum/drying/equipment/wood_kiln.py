@@ -43,7 +43,7 @@ from granum.drying.formulas.wood import (
     schedule_of,
 )
 from granum.drying.gas_solid.dryer import ready
-from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled
+from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled, evaporated
 from granum.humid_gas.pairs import AIR_WATER
 from granum.humid_gas.relations import saturated_fraction
 from granum.numerics import safe_divide
@@ -198,7 +198,7 @@ class WoodKiln(Unit):
 
     def figures(self, inside: Run, outlets: KilnDried, feed: Stream, gas: Stream) -> KilnFigures:
         found, lost = inside.found, self.lost(inside)
-        water = feed.liquid[0] - outlets.product.liquid[0]
+        water = evaporated(feed, outlets.product)
         cycle = inside.time + self.dead_time
         dry = feed.solid_flow * cycle
         fresh = HumidMixture(gas.mixture).humidity_ratio(gas)

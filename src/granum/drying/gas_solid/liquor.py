@@ -30,8 +30,21 @@ class Deposit(NamedTuple):
 
 @lru_cache(maxsize=256)
 def deposits(mixture: Mixture) -> tuple[Deposit, ...]:
-    """Of every dissolved species the solid of its name, else its first hydrate in the mixture."""
+    """Of every dissolved species the solid of its name, else its first crystal in the mixture."""
     return tuple(_deposit(mixture, i) for i in range(1, len(mixture.liquids)))
+
+
+@lru_cache(maxsize=256)
+def crystallizing(mixture: Mixture) -> tuple[tuple[int, Deposit], ...]:
+    """Places of the liquids that crystallize as the first one leaves, with what they leave: all but second
+    solvents, which stay.
+    """
+    solvents, names = mixture.materials.names("fluid"), [solid.name for solid in mixture.solids]
+    return tuple(
+        (i, _deposit(mixture, i))
+        for i, liquid in enumerate(mixture.liquids)
+        if i > 0 and (liquid.name not in solvents or liquid.name in names)
+    )
 
 
 def _deposit(mixture: Mixture, liquid: int) -> Deposit:

@@ -8,7 +8,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.flags import unsolved
+from granum.core.flags import beyond, unsolved
 from granum.core.kinds import (
     Area,
     HeatTransferCoefficient,
@@ -39,6 +39,23 @@ COLD_CHEST = (
     "heat. Give steam of a higher pressure, a lower pressure over the solution or a warmer feed."
 )
 DRY = "The solvent boils off wholly: give more feed, a smaller area or steam of a lower pressure."
+NOT_FOUND = (
+    "No temperature was found at which the solution boils: give a smaller area, more feed or another "
+    "pressure."
+)
+COLD_STEAM = (
+    "The heating steam is not hotter than the boiling solution: give steam of a higher pressure or a lower "
+    "pressure over the solution."
+)
+COLD_FEED = (
+    "Nothing boils: the feed takes up all the heat. Give a warmer feed, a larger area or steam of a higher "
+    "pressure."
+)
+OTHER_CRYSTAL = (
+    "Another crystal of the solute forms there than the one in the mixture, such as one with less water "
+    "where it is hot: add it to the solids, or give another pressure."
+)
+DRY_OUT = 1.001 * (1.0 - DRIEST)  # of the solvent: hardly more than what never boils off
 Efficiency = Annotated[PositiveNumber, Within(0.01, 1.0)]
 DropShare = Annotated[Ratio, Within(0.0, 0.1)]
 
@@ -99,6 +116,9 @@ class Heating(Unit):
         "crowded": Limit(
             "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
         ),
+        "saturated": Limit(
+            "dissolved over solubility at the outlet", 0.0, 1.0001, "dimensionless", "mullin2001, ch. 3"
+        ),
     }
     utilities: ClassVar[Utilities] = HEATED | AREA
 
@@ -119,11 +139,18 @@ class Heating(Unit):
         """Of a wall, W/K."""
         return self.area / (1.0 / coefficient + self.fouling_thermal_resistance)
 
-    def settled(self, made: Effect) -> None:
+    def right_crystal(self, liquor: Liquor, T: Any) -> None:
+        """Say where another crystal of the solute would form than those of the mixture."""
+        low, high = liquor.among(T)
+        beyond((low > T) | (high < T), T, "boiling_temperature", type(self).card, low, high, OTHER_CRYSTAL)
+
+    def settled(self, liquor: Liquor, made: Effect) -> None:
         """Say where an effect has no solution."""
         card = type(self).card
-        unsolved(made.found & (made.evaporation > 0.0), card, reason=COLD_CHEST)
-        unsolved(made.left > 1.001 * (1.0 - DRIEST), card, reason=DRY)
+        self.right_crystal(liquor, made.temperature)
+        unsolved(made.found, card, reason=NOT_FOUND)
+        unsolved(~made.found | (made.evaporation > 0.0), card, reason=COLD_CHEST)
+        unsolved(made.left > DRY_OUT, card, reason=DRY)
 
 
 class _Single(Heating):
@@ -137,7 +164,15 @@ class _Single(Heating):
         chest = liquor.pure_boiling(self.pressure_steam)
         pure = liquor.pure_boiling(self.pressure)
         made = boil(liquor, feed, chest, pure, self.conductance(self.heat_transfer_coefficient), self.sizes)
-        self.settled(made)
+        card, steam = type(self).card, jnp.asarray(self.pressure_steam, dtype=float)
+        boils, cold = made.evaporation > 0.0, made.duty <= 0.0
+        unsolved(made.found, card, reason=NOT_FOUND)
+        self.right_crystal(liquor, made.temperature)
+        least = liquor.vapor_pressure(made.temperature)
+        beyond(made.found & cold, steam, "pressure_steam", card, low=least, reason=COLD_STEAM)
+        needed = self.area * safe_divide(made.taken, made.duty, 0.0)
+        beyond(made.found & ~cold & ~boils, self.area, "area", card, low=needed, reason=COLD_FEED)
+        beyond(made.left <= DRY_OUT, self.area, "area", card, 0.0, needed, reason=DRY)
         return liquor, made, chest
 
     def told(self, liquor: Liquor, made: Effect, chest: Any, bought: Any) -> EvaporatorFigures:
@@ -159,6 +194,7 @@ class _Single(Heating):
         return {
             "difference": figures.temperature_steam - figures.boiling_temperature,
             "crowded": outlets.product.solids_volume_fraction,
+            "saturated": inside[0].saturation(outlets.product),
         }
 
 
@@ -175,7 +211,8 @@ class Evaporator(_Single):
     The boiling-point elevation follows from the water activity of the library's solutes, each as in its own
     solution with all the water, or from two given coefficients. Where the mixture has a crystal of a solute,
     the product is just saturated and fresh crystals have the given sizes: kinetics are those of the
-    crystallizers. Heats of dilution and the pressure of the liquid column are left out.
+    crystallizers; of several crystals of that solute the one forms that is stable at the boiling temperature.
+    Heats of dilution and the pressure of the liquid column are left out.
     """
 
     def inside(self, feed: Stream) -> tuple[Liquor, Effect, Any]:

@@ -169,7 +169,7 @@ class MultipleEffectEvaporator(Heating):
         unsolved(found.residual < 1e-10, type(self).card, reason=UNSOLVED)
         train = self._pass(liquor, feed, chest, given(found.state))
         for made in train.effects:
-            self.settled(made)
+            self.settled(liquor, made)
             liquor.excess(made.temperature, made.pure, made.product.liquid)  # where its flags are heard
         return train
 
@@ -199,7 +199,7 @@ class MultipleEffectEvaporator(Heating):
             steam,
             safe_divide(gone, steam, 0.0),
             1.0 - safe_divide(outlets.product.liquid[0], outlets.product.liquid_flow, 1.0),
-            jnp.sum(outlets.product.solid) - jnp.sum(feed.solid),
+            jnp.maximum(jnp.sum(outlets.product.solid) - jnp.sum(feed.solid), 0.0),
             outlets.heat_duty,
             inside.chest,
             first.temperature,
@@ -216,6 +216,7 @@ class MultipleEffectEvaporator(Heating):
         return {
             "difference": jnp.min(jnp.stack(differences)),
             "crowded": outlets.product.solids_volume_fraction,
+            "saturated": jnp.max(jnp.stack([inside.liquor.saturation(p) for p in inside.products])),
             "lost": figures.temperature_difference_lost,
         }
 
