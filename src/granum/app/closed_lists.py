@@ -46,7 +46,10 @@ def listed(p: Parameter, card: str = "") -> list[dict[str, str]]:
     if p.name in LIBRARY:
         return materials(session().names(LIBRARY[p.name]))
     if card in TABLES:
-        return _sorted((name, _(name) if session().label(name) == name else session().label(name)) for name in TABLES[card]())
+        return _sorted(
+            (name, _(name) if session().label(name) == name else session().label(name))
+            for name in TABLES[card]()
+        )
     return []
 
 

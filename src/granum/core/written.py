@@ -53,8 +53,9 @@ _INTERVAL = re.compile(r"(.*?\d.*?)\s*(±|\+/?-|\.\.+|…|(?<=\s)(?:à|to)(?=\s)
 
 
 def interval(text: str) -> tuple[str, str, str] | None:
-    """Both numbers of ``85 ± 5 um``, ``80..90 um`` or ``80 to 90 um``, each with its unit where the other has it, and the mark
-    ``±`` or ``..``; None where a text is no interval. A spread in percent says nothing about the unit.
+    """Both numbers of ``85 ± 5 um``, ``80..90 um`` or ``80 to 90 um``, each with its unit where the other has
+    it, and the mark ``±`` or ``..``; None where a text is no interval. A spread in percent says nothing about
+    the unit.
 
     >>> interval("80 à 90 um"), interval("0.8 bar ± 5 %"), interval("85 um")
     (('80 um', '90 um', '..'), ('0.8 bar', '5 %', '±'), None)

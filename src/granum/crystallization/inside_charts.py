@@ -17,15 +17,15 @@ CONTENT = Axis("solute_per_solvent", "MassRatio", zero=False)
 DRIVING = Axis("relative_supersaturation", "Fraction", "percent")
 
 
-def drawn_course(course: Course | NeedleMarch) -> dict[str, Any]:
-    """What is dissolved and what would be, with the temperature; and what drives growth, with what grows."""
+def drawn_course(course: Course | NeedleMarch, heading: str) -> dict[str, Any]:
+    """Under a heading what is dissolved and what would be, with the temperature; and what drives growth, with
+    what grows.
+    """
     time = np.asarray(course.time)
-    dissolved, saturated = (
-        np.asarray(x) for x in (course.solute_per_solvent, course.solubility_per_solvent)
-    )
+    dissolved, saturated = (np.asarray(x) for x in (course.solute_per_solvent, course.solubility_per_solvent))
     driving = Curve(_("supersaturation"), dissolved / saturated - 1.0, "LIQUID")
     return {
-        _("The batch over time"): drawn_along(
+        heading: drawn_along(
             Axis("time", "Time"),
             time,
             (

@@ -1,4 +1,6 @@
-"""Charts of what happens inside evaporators: from effect to effect, and how a solution boils as it thickens."""
+"""Charts of what happens inside evaporators: from effect to effect, and how a solution boils as it
+thickens.
+"""
 
 from __future__ import annotations
 

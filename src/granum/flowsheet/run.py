@@ -14,8 +14,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import flags
-from granum.core import notebooks, record_steps
+from granum.core import flags, notebooks, record_steps
 from granum.core.conversion import convert
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.formulas import Result

@@ -135,21 +135,15 @@ def drawn_along(
     return drawing
 
 
-def drawn_grade(
-    sizes: Any, share: Any, fed: Any = None, marks: Sequence[Mark] = (), across: str = "particle_diameter"
-) -> Any:
-    """Share of each size that a machine catches, over the size, with what it is fed with as the share that is
-    finer (of one at least) where ``fed`` has the share of each class.
-    """
-    some = np.asarray(sizes) > 0.0
-    curves = [Curve(_("caught of each size"), np.asarray(share)[some], "SOLID")]
-    if fed is not None and float(np.sum(fed)) > 0.0:
-        finer = np.cumsum(fed) - 0.5 * np.asarray(fed)  # at the middle of a class
-        curves.append(Curve(_("finer in the feed"), (finer / np.sum(fed))[some], "GAS", "dot"))
+def drawn_grade(sizes: Any, share: Any, marks: Sequence[Mark] = (), across: str = "particle_diameter") -> Any:
+    """Share of each size that a machine catches, over the size."""
     drawing = drawn_along(
         Axis(across, "Length", log=True),
-        np.asarray(sizes)[some],
-        (Axis("grade_efficiency", "Fraction", "percent", _("share by mass")), curves),
+        sizes,
+        (
+            Axis("grade_efficiency", "Fraction", "percent", _("share by mass")),
+            [Curve(_("caught of each size"), share, "SOLID")],
+        ),
         marks=marks,
     )
     drawing.update_yaxes(range=[0.0, 102.0])

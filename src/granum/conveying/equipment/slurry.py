@@ -8,7 +8,6 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.conveying.inside_charts import drawn_friction
 from granum.conveying.formulas.pipes import pressure_gradient_pipe
 from granum.conveying.formulas.slurry import (
     deposition_velocity_durand,
@@ -18,6 +17,7 @@ from granum.conveying.formulas.slurry import (
     pressure_gradient_slurry_durand,
     pressure_gradient_slurry_wilson,
 )
+from granum.conveying.inside_charts import drawn_friction
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE, STANDARD_GRAVITY
 from granum.core.i18n import _
@@ -181,7 +181,7 @@ class SlurryPipeline(Unit):
             velocity, self.diameter, liquid, viscosity, self.pipe_roughness
         )
         lifted = 0.0 * shares
-        for _ in range(PASSES):
+        for _pass in range(PASSES):
             shear = jnp.sqrt(jnp.maximum(gradient * self.diameter / (4.0 * mean), 1e-24))
             lifted = 10.0 ** (-1.8 * fall / (KARMAN * shear))
             even = jnp.sum(shares * lifted)

@@ -255,7 +255,11 @@ class BatchVessel(Unit):
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         if not float(inlets["feed"].liquid_flow) > 0.0 or np.ndim(made.inside.course.time) != 1:
             return {}
-        return drawn_course(made.inside.course)
+        return drawn_course(made.inside.course, self.followed())
+
+    def followed(self) -> str:
+        """What the chart over time shows, in words."""
+        return _("The batch over time")
 
     def _product(self, inside: Grown, feed: Stream) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""

@@ -15,6 +15,7 @@ import numpy as np
 
 from granum.core import equipment
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Concentration,
     Distance,
@@ -229,7 +230,9 @@ class NeedleBatchCrystallizer(Stirred, Unit):
         return GrownNeedles(course, found, held, seeds.number.shape[0])
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
-        return drawn_course(made.inside.course) if float(inlets["feed"].liquid_flow) > 0.0 else {}
+        if not float(inlets["feed"].liquid_flow) > 0.0:
+            return {}
+        return drawn_course(made.inside.course, _("The batch over time"))
 
     def outlets(self, inside: GrownNeedles, feed: Stream) -> BatchOutlets:
         course, found = inside.course, inside.found

@@ -146,7 +146,7 @@ class BagFilter(Collector):
             (
                 Axis("pressure_drop", "PressureDrop"),
                 [
-                    Curve(_("bag that is cleaned and loaded alone"), drop, "ACCENT"),
+                    Curve(_("one bag as it loads"), drop, "ACCENT"),
                     Curve(_("all bags, mean"), np.full(time.shape, float(bags.drop)), "GAS", "dash"),
                     Curve(
                         _("clean cloth"),

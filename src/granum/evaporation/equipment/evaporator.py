@@ -27,8 +27,8 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.evaporation.boiling import DRIEST, Effect, Liquor, boil, condensed, entrained
-from granum.evaporation.kinds import EVAPORATION_SOURCE, ThermalResistance
 from granum.evaporation.inside_charts import drawn_boiling
+from granum.evaporation.kinds import EVAPORATION_SOURCE, ThermalResistance
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
 from granum.streams.formulas.drives import shaft_power_adiabatic
