@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from granum.comminution.work_indices import work_indices
-from granum.core.i18n import _
+from granum.core.i18n import _, current_language
 from granum.core.parameters import Parameter
 from granum.core.words import plain
 from granum.materials.library import session
@@ -28,6 +28,53 @@ TABLES: dict[str, Callable[[], Iterable[str]]] = {
     "dust.dust_explosibility": dusts,
 }
 # phases of a mixture among whose species a machine's input names one
+# authors and standards among the words of a declared choice, which are written small
+AUTHORS = frozenset(
+    (
+        "bingham bradley caurie chen cole demir durand freundlich halsey henderson hii hinkle langmuir lapple "
+        "lewis matsumoto midilli mollier oswin page peleg rizk schade silva smith thompson tyler verma "
+        "vesilind wasp weber weibull whiten wilson aghbashlo kuhn"
+    ).split()
+)
+ENGLISH = {
+    "astm e11": "ASTM E11",
+    "bet": "BET",
+    "chung pfost": "Chung–Pfost",
+    "ferro fontan": "Ferro-Fontan",
+    "fick simplified": "Fick, simplified",
+    "gab": "GAB",
+    "gates gaudin schuhmann": "Gates–Gaudin–Schuhmann",
+    "gaudin meloy": "Gaudin–Meloy",
+    "halsey modified": "Halsey, modified",
+    "henderson modified": "Henderson, modified",
+    "henderson pabis": "Henderson–Pabis",
+    "henderson pabis modified": "Henderson–Pabis, modified",
+    "herschel bulkley": "Herschel–Bulkley",
+    "iglesias chirife": "Iglesias–Chirife",
+    "iso565 r10": "ISO 565, series R10",
+    "iso565 r20": "ISO 565, series R20",
+    "iso565 r20 3": "ISO 565, series R20/3",
+    "iso565 r40 3": "ISO 565, series R40/3",
+    "konno saito": "Konno and Saito",
+    "lewicki three": "Lewicki, three parameters",
+    "lewicki two": "Lewicki, two parameters",
+    "molerus hoffmann": "Molerus–Hoffmann",
+    "morsi1972": "Morsi (1972)",
+    "oswin modified": "Oswin, modified",
+    "page modified": "Page, modified",
+    "peterson whitby": "Peterson–Whitby",
+    "richardson zaki": "Richardson–Zaki",
+    "roos1971": "Roos (1971)",
+    "rosin rammler": "Rosin–Rammler",
+    "stairmand high efficiency": "Stairmand, high efficiency",
+    "stairmand high throughput": "Stairmand, high throughput",
+    "swift general purpose": "Swift, general purpose",
+    "swift high efficiency": "Swift, high efficiency",
+    "swift high throughput": "Swift, high throughput",
+    "takacs": "Takács",
+    "wang singh": "Wang–Singh",
+    "weibull four": "Weibull, four parameters",
+}
 OF_MIXTURE = {
     "solid": ("solids",),
     "other_solid": ("solids",),
@@ -37,6 +84,18 @@ OF_MIXTURE = {
     "pure_liquid": ("liquids",),
     "adsorbate": ("liquids", "gases"),
 }
+
+
+def word_label(word: str) -> str:
+    """A word of a declared choice as people read it.
+
+    >>> word_label("konno_saito"), word_label("rizk"), word_label("pitched_blades")
+    ('Konno and Saito', 'Rizk', 'pitched blades')
+    """
+    text = word.replace("_", " ")
+    if current_language() != "en":
+        return _(text)
+    return ENGLISH.get(text) or (text.title() if text in AUTHORS else text)
 
 
 def listed(p: Parameter, card: str = "") -> list[dict[str, str]]:

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from granum.app.closed_lists import listed
+from granum.app.closed_lists import listed, word_label
 from granum.app.exercises import with_card
 from granum.app.wording import summary_words
 from granum.core import registry
@@ -408,7 +408,7 @@ def _read(node: ast.expr, known: Mapping[str, Any]) -> Any:
 def options(p: Parameter, card: str = "") -> list[dict[str, str]]:
     """Words, names or laws that may be chosen for an input of a card, with labels."""
     if p.choices:
-        return [{"value": str(word), "label": _(str(word).replace("_", " "))} for word in p.choices]
+        return [{"value": str(word), "label": word_label(str(word))} for word in p.choices]
     if p.sort is bool:
         return [{"value": "yes", "label": _("yes")}, {"value": "no", "label": _("no")}]
     if not p.law:

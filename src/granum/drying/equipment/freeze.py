@@ -204,7 +204,7 @@ class FreezeDryer(Unit):
             (
                 Axis("temperature", "Temperature", "degC", zero=False),
                 [
-                    Curve(_("shelf"), shelf, "HEAT"),
+                    Curve(_("shelf"), shelf, "HEAT", "dash"),
                     Curve(_("bottom of the product"), bottom, "SOLID"),
                     Curve(_("ice front"), front, "LIQUID"),
                     Curve(_("limit of the product"), hot, "GAS", "dot"),

@@ -194,9 +194,9 @@ class TrayFreezeDryer(Unit):
             (
                 Axis("temperature", "Temperature", "degC", zero=False),
                 [
-                    Curve(_("shelf"), np.full(time.shape, float(self.temperature_shelf)), "HEAT"),
+                    Curve(_("shelf"), np.full(time.shape, float(self.temperature_shelf)), "HEAT", "dash"),
                     Curve(_("dry surface"), surface, "SOLID"),
-                    Curve(_("bottom of the ice"), bottom, "LIQUID", "dash"),
+                    Curve(_("bottom of the ice"), bottom, "LIQUID", "dot"),
                     Curve(_("ice front"), front, "LIQUID"),
                 ],
             ),

@@ -233,7 +233,7 @@ class TrayDryer(Unit):
             (
                 Axis("temperature", "Temperature", "degC", zero=False),
                 [
-                    Curve(_("product where the air leaves"), load.temperature[:, -1], "HEAT"),
+                    Curve(_("product where the air leaves"), load.temperature[:, -1], "ACCENT"),
                     Curve(_("air as it leaves the trays"), load.gas_temperature[:, -1], "GAS", "dashdot"),
                 ],
             ),

@@ -187,7 +187,7 @@ class WoodKiln(Unit):
             (
                 Axis("temperature", "Temperature", "degC", zero=False),
                 [
-                    Curve(_("air, dry bulb"), dry_bulb, "HEAT"),
+                    Curve(_("air, dry bulb"), dry_bulb, "ACCENT"),
                     Curve(_("air, wet bulb"), wet_bulb, "GAS", "dashdot"),
                 ],
             ),
