@@ -27,14 +27,46 @@ TABLES: dict[str, Callable[[], Iterable[str]]] = {
     "comminution.work_index": work_indices,
     "dust.dust_explosibility": dusts,
 }
-# phases of a mixture among whose species a machine's input names one
 # authors and standards among the words of a declared choice, which are written small
 AUTHORS = frozenset(
-    (
-        "bingham bradley caurie chen cole demir durand freundlich halsey henderson hii hinkle langmuir lapple "
-        "lewis matsumoto midilli mollier oswin page peleg rizk schade silva smith thompson tyler verma "
-        "vesilind wasp weber weibull whiten wilson aghbashlo kuhn"
-    ).split()
+    [
+        "bingham",
+        "bradley",
+        "caurie",
+        "chen",
+        "cole",
+        "demir",
+        "durand",
+        "freundlich",
+        "halsey",
+        "henderson",
+        "hii",
+        "hinkle",
+        "langmuir",
+        "lapple",
+        "lewis",
+        "matsumoto",
+        "midilli",
+        "mollier",
+        "oswin",
+        "page",
+        "peleg",
+        "rizk",
+        "schade",
+        "silva",
+        "smith",
+        "thompson",
+        "tyler",
+        "verma",
+        "vesilind",
+        "wasp",
+        "weber",
+        "weibull",
+        "whiten",
+        "wilson",
+        "aghbashlo",
+        "kuhn",
+    ]
 )
 ENGLISH = {
     "astm e11": "ASTM E11",
@@ -75,6 +107,7 @@ ENGLISH = {
     "wang singh": "Wang–Singh",
     "weibull four": "Weibull, four parameters",
 }
+# phases of a mixture among whose species a machine's input names one
 OF_MIXTURE = {
     "solid": ("solids",),
     "other_solid": ("solids",),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -12,21 +12,28 @@ import numpy as np
 from granum.core.i18n import _
 from granum.streams.inside_charts import Axis, Curve, Mark, drawn_along
 from granum.streams.stream import Stream
+from granum.streams.units import Unit
 
 SLOWEST, FASTEST = 0.25, 2.0  # of the velocity as it runs
 
 
-def drawn_friction(inside: Callable[[Stream], Any], feed: Stream, runs: Any, deposition: float = 0.0) -> Any:
+@eqx.filter_jit
+def _friction(unit: Unit, feed: Stream, times: Any) -> tuple[Any, Any]:
+    """Velocity and gradient of so many times the feed."""
+
+    def at(scale: Any) -> tuple[Any, Any]:
+        made = unit.inside(feed.part(solid=scale, liquid=scale, gas=scale))
+        return made.velocity, made.pressure_gradient
+
+    return jax.vmap(at)(times)
+
+
+def drawn_friction(unit: Unit, feed: Stream, runs: Any, deposition: float = 0.0) -> Any:
     """Pressure gradient of the level pipe over the velocity, at the solids content of a feed, with where the
     solid begins to lie on the bottom.
     """
     times = jnp.linspace(SLOWEST, FASTEST, 71)
-
-    def at(scale: Any) -> tuple[Any, Any]:
-        made = inside(feed.part(solid=scale, liquid=scale, gas=scale))
-        return made.velocity, made.pressure_gradient if hasattr(made, "pressure_gradient") else made.gradient
-
-    velocity, gradient = (np.asarray(x) for x in jax.jit(jax.vmap(at))(times))
+    velocity, gradient = (np.asarray(x) for x in _friction(unit, feed, times))
 
     def on_curve(name: str, speed: float) -> Mark:
         return Mark(name, speed, np.interp(speed, velocity, gradient))

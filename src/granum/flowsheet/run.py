@@ -347,8 +347,9 @@ class Run:
         for name, unit in self.sheet.units.items():
             inlets = self._inlets(name)
             if type(unit).charts is not Unit.charts:
-                made = _operated(*as_arrays((unit, inlets)))
-                drawn = unit.charts(jax.tree.map(_as_jax, made), inlets)
+                thing = as_arrays(unit)
+                made = _operated(thing, as_arrays(inlets))
+                drawn = thing.charts(jax.tree.map(_as_jax, made), inlets)
                 found |= {f"{name} · {heading}": figure for heading, figure in drawn.items()}
             ports = {port: f"{name}.{port}" for port in type(unit).outlet_names()}
             leaving = {port: self.streams[there] for port, there in ports.items() if there in self.streams}

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -151,13 +152,7 @@ class SettlingCentrifuge(Bowl):
         if not float(feed.solid_flow) > 0.0:
             return {}
         times = np.linspace(*SCALED, 41)
-
-        def at(scale: Any) -> tuple[Any, Any]:
-            fed = feed.part(solid=scale, liquid=scale, gas=scale)
-            caught = jnp.sum(over_axes(self.grade(fed), fed) * fed.solid) / fed.solid_flow
-            return caught, self.cut_size(fed, self.sigma())
-
-        caught, cut = jax.vmap(at)(jnp.asarray(times))
+        caught, cut = _catching(self, feed, jnp.asarray(times))
         drawn = drawn_along(
             Axis("volume_flow", "VolumeFlow"),
             times * float(feed.slurry_volume_flow),
@@ -173,6 +168,18 @@ class SettlingCentrifuge(Bowl):
 
     def measured(self, inside: None, outlets: Clarified, figures: Any, feed: Stream) -> dict[str, Any]:
         return self.measured_bowl(feed, figures)
+
+
+@eqx.filter_jit
+def _catching(unit: SettlingCentrifuge, feed: Stream, times: Any) -> tuple[Any, Any]:
+    """Share of the solid caught, and cut size, of so many times the feed."""
+
+    def at(scale: Any) -> tuple[Any, Any]:
+        fed = feed.part(solid=scale, liquid=scale, gas=scale)
+        caught = jnp.sum(over_axes(unit.grade(fed), fed) * fed.solid) / fed.solid_flow
+        return caught, unit.cut_size(fed, unit.sigma())
+
+    return jax.vmap(at)(times)
 
 
 class Tube(Bowl):

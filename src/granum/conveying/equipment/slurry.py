@@ -75,7 +75,7 @@ class Pumped(NamedTuple):
     size: Any
     share: Any
     suspended: Any
-    gradient: Any
+    pressure_gradient: Any
     drop: Any
 
 
@@ -201,7 +201,7 @@ class SlurryPipeline(Unit):
         if not float(pumped_.velocity) > 0.0:
             return {}
         heading = _("Friction over the velocity")
-        return {heading: drawn_friction(self.inside, feed, pumped_, float(pumped_.deposition))}
+        return {heading: drawn_friction(self, feed, pumped_, float(pumped_.deposition))}
 
     def outlets(self, inside: Pumped, feed: Stream) -> Delivered:
         least = jnp.minimum(feed.pressure, STANDARD_ATMOSPHERE)

@@ -136,7 +136,7 @@ class ThickSlurryPipeline(Unit):
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         if not float(made.inside.velocity) > 0.0:
             return {}
-        return {_("Friction over the velocity"): drawn_friction(self.inside, inlets["feed"], made.inside)}
+        return {_("Friction over the velocity"): drawn_friction(self, inlets["feed"], made.inside)}
 
     def outlets(self, inside: ThickSlurryFigures, feed: Stream) -> Delivered:
         least = jnp.minimum(feed.pressure, STANDARD_ATMOSPHERE)

@@ -8,6 +8,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
+import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
@@ -57,6 +58,9 @@ PUMPED = {
         "king1971, the pressure only: the energy of the pump is our own estimate"
     )
 }
+
+
+_dried = eqx.filter_jit(dry)
 
 
 class FreezeDried(NamedTuple):
@@ -192,7 +196,7 @@ class FreezeDryer(Unit):
             self.vapor_resistance_saturation,
             self.pressure_chamber,
         )
-        _total, path = dry(vial, self.temperature_shelf_start, self.temperature_shelf, self.ramp_rate)
+        _total, path = _dried(vial, self.temperature_shelf_start, self.temperature_shelf, self.ramp_rate)
         order = np.argsort(np.asarray(path.time), kind="stable")
         time, shelf, front, bottom, flux = (
             np.asarray(x)[order] for x in (path.time, path.shelf, path.front, path.bottom, path.flux)

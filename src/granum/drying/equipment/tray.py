@@ -216,7 +216,7 @@ class TrayDryer(Unit):
         time = float(made.figures.drying_time)
         if heated_apart or not (float(feed.liquid_flow) > 0.0 and 0.0 < time < math.inf):
             return {}
-        load = _followed(self, feed, gas, 1.2 * time, *FOLLOWED)
+        load = _followed(self, feed, gas, jnp.asarray(1.2 * time), *FOLLOWED)
         if not bool(load.converged):
             return {}
         drawn = drawn_along(

@@ -168,12 +168,7 @@ class _Plant(Unit):
         streams = [inlets["feed"], *(inlets[port] for port in inlets if port != "feed")]
         pressures = self.pressure_drop * np.linspace(*PRESSED)
 
-        def at(pressure: Any) -> tuple[Any, Any]:
-            plant = eqx.tree_at(lambda p: p.pressure_drop, self, pressure)
-            there = plant.inside(*streams)
-            return there.flux[0], there.osmotic[0]
-
-        flux, osmotic = jax.jit(jax.vmap(at))(jnp.asarray(pressures))
+        flux, osmotic = _pressed(self, streams, jnp.asarray(pressures))
         return drawn_along(
             Axis("pressure_drop", "PressureDrop", label=_("pressure across the membrane")),
             pressures,
@@ -199,6 +194,17 @@ class _Plant(Unit):
         """Mean and last flux, and the permeate of all stages, m³/s."""
         mean = jnp.mean(chain.flux)
         return mean, chain.flux[-1], mean * self.area
+
+
+@eqx.filter_jit
+def _pressed(plant: _Plant, streams: list[Stream], pressures: Any) -> tuple[Any, Any]:
+    """Flux and osmotic pressure of the first stage at several pressures."""
+
+    def at(pressure: Any) -> tuple[Any, Any]:
+        there = eqx.tree_at(lambda p: p.pressure_drop, plant, pressure).inside(*streams)
+        return there.flux[0], there.osmotic[0]
+
+    return jax.vmap(at)(pressures)
 
 
 def _dissolved(stream: Stream) -> Any:
