@@ -82,9 +82,9 @@ def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
     if kind.name == "relative amount" and not own and fits(unit, "kg"):
         return _affine(unit, "kg")
     factor, offset = _affine(unit, kind.unit)
-    if fits(kind.unit, "radian") and (
-        _angles(unit) if kind.unit != "radian" else unit.strip() in ("%", "percent")
-    ):
+    above, _over, below = kind.unit.partition("/")
+    number = kind.unit == "dimensionless" or above == below
+    if (number and _angles(unit)) or (kind.unit == "radian" and unit.strip() in ("%", "percent")):
         raise UnitError("dimension")  # Pint's angles are numbers: 40° would be a void fraction of 0.7
     if kind.unit == "radian/s" and not _angles(unit):
         factor *= math.tau
