@@ -11,7 +11,6 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -231,25 +230,23 @@ def _several(text: str, p: Parameter) -> np.ndarray | None:
     return values if values.size > 1 else None
 
 
-@cache
-def _declared_kinds() -> dict[tuple[str, str], Kind]:
-    """Kinds that only a card declares, by name and unit."""
-    cards = (thing.card for thing in registry.everything().values())
-    return {
-        (p.kind.name, p.kind.unit): p.kind
-        for card in cards
-        for p in (*card.parameters, *card.outputs)
-        if p.kind
-    }
+def _asked_kind(asked: Mapping[str, Any]) -> Kind:
+    """The kind of a field by its name and unit; one that only its card declares as the form says it: to look
+    for the card would import the whole house while somebody types.
+    """
+    name, unit = str(asked.get("kind")), asked.get("unit")
+    known = next((k for k in KINDS.values() if k.name == name and k.unit == unit), None)
+    if known is not None:
+        return known
+    offered = asked.get("units")
+    if not isinstance(unit, str) or not isinstance(offered, list):
+        raise InputError(_("'{name}' is missing.").format(name="kind"), name="kind")
+    found = Kind(name, unit)
+    return replace(found, display=tuple(str(u) for u in offered[:20] if _known(str(u), found)))
 
 
 def _asked_parameter(asked: Mapping[str, Any]) -> Parameter:
-    name, unit = str(asked.get("kind")), str(asked.get("unit"))
-    kind = next(
-        (k for k in KINDS.values() if k.name == name and k.unit == unit), None
-    ) or _declared_kinds().get((name, unit))
-    if kind is None:
-        raise InputError(_("'{name}' is missing.").format(name="kind"), name="kind")
+    kind = _asked_kind(asked)
     edges = {end: asked.get(end) for end in ("lower", "upper")}
     if any(not isinstance(x, (int, float)) for x in edges.values() if x is not None):
         raise InputError(
@@ -313,8 +310,9 @@ def docstring_values(card: Card) -> dict[str, Any]:
     not.
     """
     known: dict[str, Any] = {}
-    entry = entries().get(card.key)
-    called = {card.name, entry.attribute if entry else card.name}  # a law is called by its class
+    called, declared = {card.name}, card.parameters
+    if card.sort == "law":  # by its class, and without what it is called with afterwards
+        called, declared = {entries()[card.key].attribute}, registry.find(card.key).card.parameters
     for item in doctest.DocTestParser().get_examples(card.doc):
         tree = ast.parse(item.source)
         for node in ast.walk(tree):
@@ -322,13 +320,11 @@ def docstring_values(card: Card) -> dict[str, Any]:
                 isinstance(node, ast.Call)
                 and isinstance(node.func, ast.Name)
                 and node.func.id in called
-                and len(node.args) <= len(card.parameters)
+                and len(node.args) <= len(declared)
                 and (node.args or node.keywords)
             ):
                 try:
-                    found = {
-                        p.name: _read(arg, known) for p, arg in zip(card.parameters, node.args, strict=False)
-                    }
+                    found = {p.name: _read(arg, known) for p, arg in zip(declared, node.args, strict=False)}
                     for word in node.keywords:
                         value = _read(word.value, known)
                         found |= {word.arg: value} if word.arg else value

@@ -26,7 +26,7 @@ _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
 _BEGINNING = re.compile(r"^.|(?<=[^\W\d]{2}[.?!] )[^\W\d_](?=[^\W\d_.]+[ ,])")
-_GIVEN = re.compile(r"(?<== )((?:'|«\s)[^'»]+? )([A-Za-z]\S*?)(?='|\s»)")
+_GIVEN = re.compile(r"(?<== )((?:'|«\s)[^'»]+? )(\S*?[A-Za-z]\S*?)(?='|\s»)")
 _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5(?: (\S+?))?(?='|\s»)")
 
 
