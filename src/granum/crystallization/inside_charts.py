@@ -70,7 +70,10 @@ def drawn_resolution(times: Any, course: Row, leaving: Any) -> dict[str, Any]:
             times,
             (
                 Axis("crystal_mass_per_solvent", "MassRatio", label=_("crystals per solvent")),
-                [Curve(_("wanted"), wanted, "SOLID"), Curve(_("other"), other, "GAS")],
+                [
+                    Curve(_("of the wanted enantiomer"), wanted, "SOLID"),
+                    Curve(_("of the other"), other, "GAS"),
+                ],
             ),
             (
                 Axis("enantiomer_fraction", "Fraction", "percent", _("purity")),
