@@ -83,18 +83,18 @@ def test_fine_solid_is_a_heavier_liquid_and_coarse_solid_a_bed() -> None:
     mean = 998.0 + 0.1 * (2650.0 - 998.0)
     thick = 1.002e-3 * gr.particles.relative_viscosity_thomas(0.1)
     heavy = gr.conveying.pressure_gradient_pipe(3.0, 0.2, mean, thick)
-    assert float(fine.gradient) == pytest.approx(heavy, rel=0.05)
+    assert float(fine.pressure_gradient) == pytest.approx(heavy, rel=0.05)
     coarse_feed = sand(middle=11, spread=0.05)
     coarse = unit.operate(feed=coarse_feed).inside
     assert coarse.suspended < 1e-3
     durand = SlurryPipeline(0.2, 100.0, head_loss_law="durand").operate(feed=coarse_feed).inside
-    assert float(coarse.gradient) == pytest.approx(float(durand.gradient), rel=0.05)
+    assert float(coarse.pressure_gradient) == pytest.approx(float(durand.pressure_gradient), rel=0.05)
 
 
 def test_coarser_grains_deposit_less_evenly_and_cost_more() -> None:
     found = [SlurryPipeline(0.2, 100.0).operate(feed=sand(middle=m)).inside for m in (2, 5, 8)]
     assert found[0].suspended > found[1].suspended > found[2].suspended
-    assert found[0].gradient < found[1].gradient < found[2].gradient
+    assert found[0].pressure_gradient < found[1].pressure_gradient < found[2].pressure_gradient
 
 
 # -- the unit

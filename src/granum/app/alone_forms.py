@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from granum.app.case_forms import FEED_KINDS, case_value
+from granum.app.closed_lists import materials, within
 from granum.app.forms import card_form, fields_of
 from granum.cases.alone import PHASES, case_text, tables
 from granum.cases.sizing import duty
@@ -35,6 +36,8 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
     form = card_form(key)
     unit = found["units"][name]
     values = {p["name"]: case_value(unit[p["name"]]) for p in form["parameters"] if p["name"] in unit}
+    for row in form["parameters"]:
+        row["options"] = row["options"] or within(row, found["mixture"])
     groups = []
     for port, feed in found["feeds"].items():
         rows, stand = _feed(port, feed, found["mixture"])
@@ -123,8 +126,7 @@ def _substances(mixture: Mapping[str, Any]) -> tuple[list[dict[str, Any]], dict[
             continue
         row = _row(f"mixture.{phase}", Parameter(phase, default=None), label)
         if phase == "solids" and len(listed) == 1:
-            named = [(session().label(name), name) for name in session().names("solid")]
-            row["options"] = [{"value": name, "label": shown} for shown, name in sorted(named)]
+            row["options"] = materials(session().names("solid"))
         rows.append(row)
         values[f"mixture.{phase}"] = ", ".join(listed)
     return rows, values

@@ -11,11 +11,11 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import numpy as np
 
+from granum.app.closed_lists import listed, word_label
 from granum.app.exercises import with_card
 from granum.app.wording import summary_words
 from granum.core import registry
@@ -62,7 +62,7 @@ def card_form(key: str) -> dict[str, Any]:
     examples = opening_values(card)
     for row, p in zip(data["parameters"], card.parameters, strict=True):
         row |= _field(p)
-        row["options"] = options(p)
+        row["options"] = options(p, key)
         row |= laws_of(p)
         row["headings"] = heading_names(p) if p.series else ()
         row["several"] = bool(p.kind) and card.sort == "formula"
@@ -230,25 +230,23 @@ def _several(text: str, p: Parameter) -> np.ndarray | None:
     return values if values.size > 1 else None
 
 
-@cache
-def _declared_kinds() -> dict[tuple[str, str], Kind]:
-    """Kinds that only a card declares, by name and unit."""
-    cards = (thing.card for thing in registry.everything().values())
-    return {
-        (p.kind.name, p.kind.unit): p.kind
-        for card in cards
-        for p in (*card.parameters, *card.outputs)
-        if p.kind
-    }
+def _asked_kind(asked: Mapping[str, Any]) -> Kind:
+    """The kind of a field by its name and unit; one that only its card declares as the form says it: to look
+    for the card would import the whole house while somebody types.
+    """
+    name, unit = str(asked.get("kind")), asked.get("unit")
+    known = next((k for k in KINDS.values() if k.name == name and k.unit == unit), None)
+    if known is not None:
+        return known
+    offered = asked.get("units")
+    if not isinstance(unit, str) or not isinstance(offered, list):
+        raise InputError(_("'{name}' is missing.").format(name="kind"), name="kind")
+    found = Kind(name, unit)
+    return replace(found, display=tuple(str(u) for u in offered[:20] if _known(str(u), found)))
 
 
 def _asked_parameter(asked: Mapping[str, Any]) -> Parameter:
-    name, unit = str(asked.get("kind")), str(asked.get("unit"))
-    kind = next(
-        (k for k in KINDS.values() if k.name == name and k.unit == unit), None
-    ) or _declared_kinds().get((name, unit))
-    if kind is None:
-        raise InputError(_("'{name}' is missing.").format(name="kind"), name="kind")
+    kind = _asked_kind(asked)
     edges = {end: asked.get(end) for end in ("lower", "upper")}
     if any(not isinstance(x, (int, float)) for x in edges.values() if x is not None):
         raise InputError(
@@ -312,20 +310,21 @@ def docstring_values(card: Card) -> dict[str, Any]:
     not.
     """
     known: dict[str, Any] = {}
+    called, declared = {card.name}, card.parameters
+    if card.sort == "law":  # by its class, and without what it is called with afterwards
+        called, declared = {entries()[card.key].attribute}, registry.find(card.key).card.parameters
     for item in doctest.DocTestParser().get_examples(card.doc):
         tree = ast.parse(item.source)
         for node in ast.walk(tree):
             if (
                 isinstance(node, ast.Call)
                 and isinstance(node.func, ast.Name)
-                and node.func.id == card.name
-                and len(node.args) <= len(card.parameters)
+                and node.func.id in called
+                and len(node.args) <= len(declared)
                 and (node.args or node.keywords)
             ):
                 try:
-                    found = {
-                        p.name: _read(arg, known) for p, arg in zip(card.parameters, node.args, strict=False)
-                    }
+                    found = {p.name: _read(arg, known) for p, arg in zip(declared, node.args, strict=False)}
                     for word in node.keywords:
                         value = _read(word.value, known)
                         found |= {word.arg: value} if word.arg else value
@@ -402,14 +401,14 @@ def _read(node: ast.expr, known: Mapping[str, Any]) -> Any:
     return ast.literal_eval(node)
 
 
-def options(p: Parameter) -> list[dict[str, str]]:
-    """Words or laws that may be chosen, with labels."""
+def options(p: Parameter, card: str = "") -> list[dict[str, str]]:
+    """Words, names or laws that may be chosen for an input of a card, with labels."""
     if p.choices:
-        return [{"value": str(word), "label": _(str(word).replace("_", " "))} for word in p.choices]
+        return [{"value": str(word), "label": word_label(str(word))} for word in p.choices]
     if p.sort is bool:
         return [{"value": "yes", "label": _("yes")}, {"value": "no", "label": _("no")}]
     if not p.law:
-        return []
+        return listed(p, card)
     found = [
         option for thing in registry.family(p.law).values() if (option := _law_option(thing.card)) is not None
     ]
@@ -417,19 +416,37 @@ def options(p: Parameter) -> list[dict[str, str]]:
 
 
 def _law_option(card: Card) -> dict[str, str] | None:
-    """A law that may be chosen; one that needs parameters starts from those of its own example, or is left to
-    case files.
+    """A law that may be chosen; one that needs parameters starts from those of its own example and from
+    ordinary ones, or is left to case files.
     """
     if card.sort != "law" or not any(q.required for q in card.parameters):
         return {"value": card.name, "label": law_label(card)}
-    example = docstring_values(card)
-    if any(q.required and q.name not in example for q in card.parameters):
+    given = docstring_values(card)
+    for q in card.parameters:
+        if q.required and q.name not in given:
+            given[q.name] = _usual(q)
+    if any(value is None for value in given.values()):
         return None
     return {
         "value": card.name,
         "label": law_label(card),
-        "table": json.dumps({"law": card.name} | example, ensure_ascii=False),
+        "table": json.dumps({"law": card.name} | given, ensure_ascii=False),
     }
+
+
+def _usual(p: Parameter) -> Any:
+    """What a parameter of a law starts from: an ordinary value, or a law that hangs on no other; None where
+    nobody can know.
+    """
+    if p.choices:
+        return p.choices[0]
+    if p.law:
+        inner = [x.card for x in registry.family(p.law).values() if not any(q.law for q in x.card.parameters)]
+        inner.sort(key=lambda card: not docstring_values(card))  # those with an example of their own first
+        found = next(filter(None, map(_law_option, inner)), None)
+        return None if found is None else json.loads(found["table"]) if "table" in found else found["value"]
+    shown = example(p, {})
+    return None if shown is None else f"{shown['number']} {shown['unit']}".strip()
 
 
 def laws_with_parameters(p: Parameter) -> dict[str, dict[str, Any]]:
@@ -441,7 +458,10 @@ def laws_with_parameters(p: Parameter) -> dict[str, dict[str, Any]]:
         if thing.card.sort == "law":
             law = {
                 "title": thing.card.title,
-                "parameters": {q.name: q.as_json() | _field(q) for q in thing.card.parameters},
+                "parameters": {
+                    q.name: q.as_json() | _field(q) | ({} if q.law else {"options": options(q)})
+                    for q in thing.card.parameters
+                },
             }
             found |= {thing.card.name: law, thing.card.name.removeprefix(p.law or "").strip("_"): law}
     return found
@@ -461,8 +481,12 @@ def laws_of(p: Parameter) -> dict[str, Any]:
     return {"laws": laws, "families": families}
 
 
-def _edge(value: float, kind: Kind) -> str:
-    return "0" if value == 0.0 and kind.unit != "K" else show(value, kind)
+def _edge(value: float, p: Parameter) -> str:
+    """An end of a range, in percent where the field is."""
+    assert p.kind is not None
+    if value == 0.0 and p.kind.unit != "K":
+        return "0"
+    return show(value, p.kind, "percent" if p.units[0] == "percent" else None)
 
 
 def _goes_without_saying(p: Parameter) -> bool:
@@ -481,14 +505,14 @@ def bounds_text(p: Parameter) -> str:
     if kind is None or (kind.lower == -math.inf and kind.upper == math.inf):
         return ""
     if kind.upper == math.inf:
-        return f"{'>' if kind.open_lower else '≥'} {_edge(kind.lower, kind)}"
+        return f"{'>' if kind.open_lower else '≥'} {_edge(kind.lower, p)}"
     if kind.lower == -math.inf:
-        return f"{'<' if kind.open_upper else '≤'} {_edge(kind.upper, kind)}"
-    return f"{_edge(kind.lower, kind)} … {_edge(kind.upper, kind)}"
+        return f"{'<' if kind.open_upper else '≤'} {_edge(kind.upper, p)}"
+    return f"{_edge(kind.lower, p)} … {_edge(kind.upper, p)}"
 
 
 def range_text(p: Parameter, limits: tuple[float, float]) -> str:
     """A range in one unit: ``10 … 800 µm``."""
     if p.kind is None:
         return " … ".join("∞" if abs(x) == math.inf else format_number(x) for x in limits)
-    return " … ".join(("−∞" if x < 0 else "∞") if abs(x) == math.inf else _edge(x, p.kind) for x in limits)
+    return " … ".join(("−∞" if x < 0 else "∞") if abs(x) == math.inf else _edge(x, p) for x in limits)

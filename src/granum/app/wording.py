@@ -26,7 +26,8 @@ _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
 _BEGINNING = re.compile(r"^.|(?<=[^\W\d]{2}[.?!] )[^\W\d_](?=[^\W\d_.]+[ ,])")
-_EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
+_GIVEN = re.compile(r"(?<== )((?:'|«\s)[^'»]+? )(\S*?[A-Za-z]\S*?)(?='|\s»)")
+_EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5(?: (\S+?))?(?='|\s»)")
 
 
 def page_words(message: str, allowed: object = None, kept: Collection[object] = ()) -> str:
@@ -49,7 +50,8 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
         text,
     )
     text = _KEY.sub(lambda found: _title(found[0]), text)
-    text = _EXAMPLE.sub(lambda found: f"{format_number(1.5)} {pretty_unit(found[1])}", text)
+    text = _GIVEN.sub(lambda found: f"{found[1]}{pretty_unit(found[2])}", text)
+    text = _EXAMPLE.sub(lambda found: f"{format_number(1.5)} {pretty_unit(found[1] or '')}".strip(), text)
     if isinstance(allowed, list) and allowed:
         units = [pretty_unit(str(unit)) or "1" for unit in allowed]
         text = text.replace(", ".join(map(str, allowed)), ", ".join(units))

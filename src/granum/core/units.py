@@ -20,7 +20,7 @@ from granum.core.i18n import _
 from granum.core.kinds import Kind
 from granum.core.unit_names import DEGREES, ELSE, LONGEST_UNIT, fits, parse_unit, registry, same_dimension
 from granum.core.unit_table import counts_angles, rows
-from granum.core.written import apart, mixed, read_number, tidy
+from granum.core.written import apart, interval, mixed, read_number, tidy
 
 
 def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
@@ -82,6 +82,10 @@ def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
     if kind.name == "relative amount" and not own and fits(unit, "kg"):
         return _affine(unit, "kg")
     factor, offset = _affine(unit, kind.unit)
+    above, _over, below = kind.unit.partition("/")
+    number = kind.unit == "dimensionless" or above == below
+    if (number and _angles(unit)) or (kind.unit == "radian" and unit.strip() in ("%", "percent")):
+        raise UnitError("dimension")  # Pint's angles are numbers: 40° would be a void fraction of 0.7
     if kind.unit == "radian/s" and not _angles(unit):
         factor *= math.tau
     elif kind.unit == "1/s" and _angles(unit):
@@ -143,16 +147,25 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
     0.0012
     """
     found = read_number(text)
-    if found is None:
-        raise InputError(
-            _("'{name}' = '{text}' is not a number with a unit. Write it as '{example}'.").format(
-                name=name or kind.name, text=shown(text), example=f"1.5 {kind.units[0]}"
-            ),
-            name=name or kind.name,
-            value=shown(text),
-        )
-    number, unit = found
-    return float(to_si(number, unit, kind, name)) if unit else number
+    try:
+        if found is not None:
+            number, unit = found
+            return float(to_si(number, unit, kind, name)) if unit else number
+    except UnitError:
+        if interval(text) is None:
+            raise
+    if interval(text) is not None:
+        message = _("'{name}' = '{text}' is a range; here one number is asked for.")
+    elif kind.units[0] == "dimensionless":
+        message = _("'{name}' = '{text}' is not a number. Write it as '{example}'.")
+    else:
+        message = _("'{name}' = '{text}' is not a number with a unit. Write it as '{example}'.")
+    example = "1.5" if kind.units[0] == "dimensionless" else f"1.5 {kind.units[0]}"
+    raise InputError(
+        message.format(name=name or kind.name, text=shown(text), example=example),
+        name=name or kind.name,
+        value=shown(text),
+    )
 
 
 def read_values(text: str, kind: Kind, name: str = "") -> float | np.ndarray:

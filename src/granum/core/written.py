@@ -49,21 +49,22 @@ def read_number(text: str) -> tuple[float, str] | None:
     return float(_plain(found[1])), found[2]
 
 
-_INTERVAL = re.compile(r"(.*?\d.*?)\s*(±|\+/?-|\.\.+|…)\s*(.*\d.*)", re.DOTALL)
+_INTERVAL = re.compile(r"(.*?\d.*?)\s*(±|\+/?-|\.\.+|…|(?<=\s)(?:à|to)(?=\s))\s*(.*\d.*)", re.DOTALL)
 
 
 def interval(text: str) -> tuple[str, str, str] | None:
-    """Both numbers of ``85 ± 5 um`` or ``80..90 um``, each with its unit where the other has it, and the mark
-    ``±`` or ``..``; None where a text is no interval. A spread in percent says nothing about the unit.
+    """Both numbers of ``85 ± 5 um``, ``80..90 um`` or ``80 to 90 um``, each with its unit where the other has
+    it, and the mark ``±`` or ``..``; None where a text is no interval. A spread in percent says nothing about
+    the unit.
 
-    >>> interval("80..90 um"), interval("0.8 bar ± 5 %"), interval("85 um")
+    >>> interval("80 à 90 um"), interval("0.8 bar ± 5 %"), interval("85 um")
     (('80 um', '90 um', '..'), ('0.8 bar', '5 %', '±'), None)
     """
     found = _INTERVAL.fullmatch(text.strip()) if len(text) <= LONGEST else None
     low, high = (read_number(found[1]), read_number(found[3])) if found else (None, None)
     if found is None or low is None or high is None:
         return None
-    mark = ".." if found[2][0] in ".…" else "±"
+    mark = "±" if found[2][0] in "±+" else ".."
     share = mark == "±" and high[1] == "%"
     first = found[1].strip() if low[1] or share else f"{found[1].strip()} {high[1]}".strip()
     second = found[3].strip() if high[1] else f"{found[3].strip()} {low[1]}".strip()

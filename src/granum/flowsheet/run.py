@@ -14,7 +14,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import notebooks, record_steps
+from granum.core import flags, notebooks, record_steps
 from granum.core.conversion import convert
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.formulas import Result
@@ -56,6 +56,18 @@ from granum.streams.units import Check, Operated, Sheet, Unit
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+
+@compiled
+def _operated(unit: Unit, inlets: Mapping[str, Stream]) -> Operated:
+    """What a unit works out on its way, for charts; nobody hears its flags here."""
+    with flags.collect():
+        made = unit.operate(**inlets)
+    return Operated(made.outlets, made.figures, (), made.inside, [], {})
+
+
+def _as_jax(leaf: Any) -> Any:
+    return jnp.asarray(leaf) if isinstance(leaf, np.ndarray | np.generic) else leaf
 
 
 @compiled
@@ -316,21 +328,16 @@ class Run:
                 yield p, getattr(self.utilities, p.name)
 
     @cached_property
-    def _written(self) -> dict[str, tuple[tuple[Result, ...], Operated]]:
-        """Each unit once more, with numbers in place of compiled code: what its formulas took and gave, and
-        what is inside.
+    def notes(self) -> dict[str, tuple[Result, ...]]:
+        """The formulas each unit evaluates, with their numbers: the calculation note. Each unit is calculated
+        once more, with numbers in place of compiled code.
         """
         written = {}
         for name in self.sheet.order:
             with record_steps() as steps:
-                made = self.sheet.units[name].operate(**self._inlets(name))
-            written[name] = tuple(steps), made
+                self.sheet.units[name].operate(**self._inlets(name))
+            written[name] = tuple(steps)
         return written
-
-    @cached_property
-    def notes(self) -> dict[str, tuple[Result, ...]]:
-        """The formulas each unit evaluates, with their numbers: the calculation note."""
-        return {name: steps for name, (steps, _made) in self._written.items()}
 
     def charts(self) -> dict[str, Any]:
         """Pictures of what happens inside the units, by unit and heading: what each draws of itself, and
@@ -340,7 +347,9 @@ class Run:
         for name, unit in self.sheet.units.items():
             inlets = self._inlets(name)
             if type(unit).charts is not Unit.charts:
-                drawn = unit.charts(self._written[name][1], inlets)
+                thing = as_arrays(unit)
+                made = _operated(thing, as_arrays(inlets))
+                drawn = thing.charts(jax.tree.map(_as_jax, made), inlets)
                 found |= {f"{name} · {heading}": figure for heading, figure in drawn.items()}
             ports = {port: f"{name}.{port}" for port in type(unit).outlet_names()}
             leaving = {port: self.streams[there] for port, there in ports.items() if there in self.streams}

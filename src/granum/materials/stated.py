@@ -150,8 +150,7 @@ def properties(
 def _not_a_fluid(given: Any) -> InputError:
     return InputError(
         _(
-            "'fluid' = {value} is not understood: write it with its temperature, such as fluid=\"water "
-            'at 20 °C".'
+            "'fluid' = {value} is not understood: write it with its temperature, such as 'water at 20 °C'."
         ).format(value=repr(given)),
         name="fluid",
     )

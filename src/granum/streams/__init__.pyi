@@ -91,6 +91,7 @@ from granum.streams.holdup import (
 from granum.streams.inside_charts import (
     Axis as Axis,
     Curve as Curve,
+    Mark as Mark,
 )
 from granum.streams.mixture import (
     Mixture as Mixture,

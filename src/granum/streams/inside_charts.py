@@ -20,13 +20,23 @@ RARE = 1e-6  # share of the solid below which a class tells nothing
 
 class Axis(NamedTuple):
     """What an axis shows: a word of the glossary, its kind, its unit (None: one that suits), and what it is
-    called where the word says too much.
+    called where the word says too much; whether it begins at nothing, and counts powers of ten.
     """
 
     word: str
     kind: str
     unit: str | None = None
     label: str | None = None
+    zero: bool = True
+    log: bool = False
+
+
+class Mark(NamedTuple):
+    """A place on the axis across and on the left one by its name, in SI: where a machine works."""
+
+    name: str
+    x: Any
+    y: Any
 
 
 class Curve(NamedTuple):
@@ -71,16 +81,20 @@ def drawn_along(
     left: tuple[Axis, Sequence[Curve]],
     right: tuple[Axis, Sequence[Curve]] | None = None,
     stages: tuple[Sequence[float], Sequence[str]] | None = None,
+    marks: Sequence[Mark] = (),
     **look: Any,
 ) -> Any:
-    """Curves over ``x`` with one or two upright axes from nothing; ``stages`` are edges (SI) and names."""
+    """Curves over ``x`` with one or two upright axes; ``stages`` are edges (SI) and names. ``look`` is that
+    of the lines.
+    """
     from granum.core import charts
     from granum.core.units import best_unit, from_si
 
     def unit(axis: Axis, values: Any) -> str:
         if axis.unit is not None:
             return axis.unit
-        return best_unit(float(np.nanmax(np.abs(np.asarray(values, dtype=float)))), KINDS[axis.kind])
+        sizes = np.abs(np.asarray(values, dtype=float))
+        return best_unit(float((np.nanmedian if axis.log else np.nanmax)(sizes)), KINDS[axis.kind])
 
     def shown(axis: Axis, values: Any, in_unit: str) -> np.ndarray:
         return np.asarray(from_si(np.asarray(values, dtype=float), in_unit, KINDS[axis.kind]))
@@ -94,23 +108,45 @@ def drawn_along(
         (axis, curves, unit(axis, np.concatenate([np.ravel(c.values) for c in curves])))
         for axis, curves in (left, *(() if right is None else (right,)))
     ]
-    drawing = charts.figure(titled(across, x_unit), titled(sides[0][0], sides[0][2]))
+    drawing = charts.figure(titled(across, x_unit), titled(sides[0][0], sides[0][2]), x_log=across.log)
     room = 1.05 if stages is None else shade(drawing, list(shown(across, stages[0], x_unit)), stages[1])
     for number, (axis, curves, in_unit) in enumerate(sides):
-        most = 0.0
+        most, least = -np.inf, np.inf
         for curve in curves:
             y = shown(axis, curve.values, in_unit)
-            most = max(most, float(np.nanmax(y)))
+            most, least = max(most, float(np.nanmax(y))), min(least, float(np.nanmin(y)))
             charts.add_line(drawing, over, y, curve.name, color=getattr(charts, curve.color), dash=curve.dash)
             drawing.data[-1].update(look | ({"yaxis": "y2"} if number else {}))
-        reach = [0.0, (most or 1.0) * room]
+        if axis.zero:
+            reach = [0.0, (most or 1.0) * room]
+        else:
+            spread = most - least or 1.0
+            reach = [least - 0.05 * spread, least + spread * room + 0.05 * spread]
         if number:
             charts.add_right_axis(drawing, titled(axis, in_unit), range=reach)
         else:
             drawing.update_yaxes(range=reach)
+    for number, mark in enumerate(marks):
+        at = float(shown(across, mark.x, x_unit)), float(shown(left[0], mark.y, sides[0][2]))
+        charts.add_points(drawing, [at[0]], [at[1]], mark.name, color=charts.INK, hollow=number > 0)
     drawing.update_layout(
         legend={"orientation": "h", "y": -0.2, "x": 0.0}, margin={"r": 25 if right is None else 75, "b": 100}
     )
+    return drawing
+
+
+def drawn_grade(sizes: Any, share: Any, marks: Sequence[Mark] = (), across: str = "particle_diameter") -> Any:
+    """Share of each size that a machine catches, over the size."""
+    drawing = drawn_along(
+        Axis(across, "Length", log=True),
+        sizes,
+        (
+            Axis("grade_efficiency", "Fraction", "percent", _("share by mass")),
+            [Curve(_("caught of each size"), share, "SOLID")],
+        ),
+        marks=marks,
+    )
+    drawing.update_yaxes(range=[0.0, 102.0])
     return drawing
 
 

@@ -83,7 +83,7 @@ function App() {
   const other = settings.language === 'fr' ? 'en' : 'fr';
   useEffect(() => {
     document.title = `${t(page[1])} · Granum`;
-    document.querySelector('nav a[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+    document.querySelector('nav a[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'center' });
   }, [page, settings.language]);
   return html`<a class="skip" href="#main" onClick=${(e) => {
     e.preventDefault();

@@ -64,8 +64,8 @@ function LawTable({ p, id, note, text, onChange }) {
         const q = declared && { ...declared, ...p.families?.[declared.law], families: p.families };
         return html`<div class="small given" key=${`${table.law} ${name}`} data-option=${name}><label for=${`${id}-${name}`}>${q?.label || name.replaceAll('_', ' ')}</label>
         ${
-          q?.law && (value?.law || q.options?.length)
-            ? html`<${value?.law ? LawTable : Choice} p=${q} id=${`${id}-${name}`} note=${note} text=${value?.law ? JSON.stringify(value) : named(q, value)} onChange=${(next) => set(name, table_of(next))} />`
+          q?.options?.length || (q?.law && value?.law)
+            ? html`<${value?.law ? LawTable : Choice} p=${q} id=${`${id}-${name}`} note=${note} text=${value?.law ? JSON.stringify(value) : q.law ? named(q, value) : String(value)} onChange=${(next) => set(name, table_of(next))} />`
             : q?.kind && isQuantity(value)
               ? html`<${Quantity} p=${q} id=${`${id}-${name}`} note=${note} text=${[value].flat().map(brief).join('; ')} onChange=${(next) => set(name, bare(next, value))} />`
               : html`<${Plain} id=${`${id}-${name}`} value=${value} onChange=${(next) => set(name, next)} />`

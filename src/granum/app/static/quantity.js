@@ -12,7 +12,7 @@ const raised = (power) =>
 /** A number as it is printed: 1.07 × 10⁸ for 1.07e8; it may be typed so as well. */
 export const printed = (text) => text.replace(/(\d)e([-+]?\d+)/g, (_whole, last, power) => `${last} × 10${raised(power)}`);
 const NUMBER =
-  /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…)\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+|\s*[×x·*]\s*10(?:\^?[-+−]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?:\/\d+(?![\d.,]))?/iy;
+  /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…|(?:à|to)(?=\s))\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+|\s*[×x·*]\s*10(?:\^?[-+−]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?:\/\d+(?![\d.,]))?/iy;
 /** A unit in a menu; what has none stands as in the head of a table. */
 export const unitLabel = (unit) => unit.label || '–';
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');

@@ -6,10 +6,14 @@ from __future__ import annotations
 
 import abc
 import math
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
+import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.centrifuges.equipment.bowls import (
     CRITICAL,
@@ -28,6 +32,7 @@ from granum.centrifuges.formulas.field import centrifugal_effect
 from granum.centrifuges.formulas.mechanics import critical_speed_bowl, discharge_interval
 from granum.core import equipment
 from granum.core.constants import RPM
+from granum.core.i18n import _
 from granum.core.kinds import (
     Angle,
     Area,
@@ -47,8 +52,11 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import over_axes
+from granum.streams.inside_charts import Axis, Curve, Mark, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Operated
+
+SCALED = (0.1, 3.0)  # of the feed, between which the catch is drawn
 
 
 class Clarified(NamedTuple):
@@ -139,12 +147,39 @@ class SettlingCentrifuge(Bowl):
     def outlets(self, inside: None, feed: Stream) -> Clarified:
         return clarified(self, feed, self.grade(feed), self.sediment_solids_fraction)
 
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed = inlets["feed"]
+        if not float(feed.solid_flow) > 0.0:
+            return {}
+        times = np.linspace(*SCALED, 41)
+        caught, cut = _catching(self, feed, jnp.asarray(times))
+        drawn = drawn_along(
+            Axis("volume_flow", "VolumeFlow"),
+            times * float(feed.slurry_volume_flow),
+            (Axis("solids_recovery", "Fraction", "percent"), [Curve(_("solids caught"), caught, "SOLID")]),
+            (Axis("cut_size_centrifuge", "Distance"), [Curve(_("cut size"), cut, "LIQUID", "dash")]),
+            marks=[Mark(_("as it runs"), feed.slurry_volume_flow, made.figures.solids_recovery)],
+        )
+        return {_("What it catches of more or less feed"): drawn}
+
     @abc.abstractmethod
     def figures(self, inside: None, outlets: Clarified, feed: Stream) -> Any:
         """Figures of the data sheet."""
 
     def measured(self, inside: None, outlets: Clarified, figures: Any, feed: Stream) -> dict[str, Any]:
         return self.measured_bowl(feed, figures)
+
+
+@eqx.filter_jit
+def _catching(unit: SettlingCentrifuge, feed: Stream, times: Any) -> tuple[Any, Any]:
+    """Share of the solid caught, and cut size, of so many times the feed."""
+
+    def at(scale: Any) -> tuple[Any, Any]:
+        fed = feed.part(solid=scale, liquid=scale, gas=scale)
+        caught = jnp.sum(over_axes(unit.grade(fed), fed) * fed.solid) / fed.solid_flow
+        return caught, unit.cut_size(fed, unit.sigma())
+
+    return jax.vmap(at)(times)
 
 
 class Tube(Bowl):

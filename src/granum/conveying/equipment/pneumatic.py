@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.conveying.formulas.pipes import pressure_gradient_pipe
 from granum.conveying.formulas.pneumatic import (
@@ -28,6 +30,7 @@ from granum.conveying.formulas.thresholds import (
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Distance,
     Law,
@@ -42,8 +45,9 @@ from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import terminal_velocity
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream, median_of
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import FANNED, fanned
 
 STEPS = 24
@@ -78,7 +82,7 @@ class PneumaticFigures(NamedTuple):
 
 class Blown(NamedTuple):
     """What the line works out: the mixed stream as it enters, gas velocity there, thresholds, particle size,
-    loading, share of the volume that is solid, pressure at the end.
+    loading, share of the volume that is solid, pressure at the end and after each step of the way.
     """
 
     mixed: Stream
@@ -90,6 +94,7 @@ class Blown(NamedTuple):
     loading: Any
     share: Any
     pressure: Any
+    pressures: Any
 
 
 @equipment(
@@ -178,7 +183,8 @@ class PneumaticConveyor(Unit):
             )
 
         started = mixed.pressure - flux * lag * velocity - 0.5 * density * velocity**2
-        end = _marched(gradient, started, LEAST * mixed.pressure)
+        pressures = _marched(gradient, started, LEAST * mixed.pressure)
+        end = pressures[-1]
         stands = (end > LEAST * mixed.pressure) & ((velocity > 0.0) | ~some)
         unsolved(stands, type(self).card, reason=UNSOLVED)
         share = safe_divide(flux, heavy * jnp.maximum(lag * velocity, 1e-9))
@@ -192,6 +198,7 @@ class PneumaticConveyor(Unit):
             loading,
             share,
             end,
+            pressures,
         )
 
     def _saltation(self, flux: Any, size: Any, heavy: Any, density: Any, fall: Any) -> Any:
@@ -205,6 +212,35 @@ class PneumaticConveyor(Unit):
                 return saltation_velocity_schade(flux, size, heavy, density, d)
             case _:
                 return saltation_velocity_weber(flux, size, density, fall, d)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        blown: Blown = made.inside
+        first = float(blown.mixed.pressure)
+        if not float(blown.velocity) > 0.0:
+            return {}
+        way = float(self.length_horizontal) + float(self.length_vertical)
+        place = np.concatenate([[0.0], way * np.linspace(0.0, 1.0, STEPS + 1)])
+        pressure = np.concatenate([[first], np.asarray(blown.pressures)])
+        velocity = float(blown.velocity) * first / pressure
+        least = {_("saltation, where the solid enters"): blown.saltation, _("choking"): blown.choking}
+        lines = [
+            Curve(name, np.full(place.shape, float(speed)), "SOLID", dash)
+            for (name, speed), dash in zip(least.items(), ("dash", "dot"), strict=True)
+            if float(speed) > 0.0
+        ]
+        drawn = drawn_along(
+            Axis("length", "Distance", label=_("way along the line")),
+            place,
+            (
+                Axis("gas_velocity", "Speed"),
+                [Curve(_("gas"), velocity, "GAS"), *lines],
+            ),
+            (
+                Axis("pressure", "Pressure", zero=False),
+                [Curve(_("pressure"), pressure, "ACCENT", "dashdot")],
+            ),
+        )
+        return {_("Along the conveying line"): drawn}
 
     def outlets(self, inside: Blown, feed: Stream, gas: Stream) -> Conveyed:
         return Conveyed(inside.mixed.replace(pressure=inside.pressure))
@@ -261,17 +297,19 @@ def _over(velocity: Any, threshold: Any) -> Any:
 
 
 def _marched(gradient: Any, pressure: Any, least: Any) -> Any:
-    """Pressure after the whole way by Runge and Kutta, not below the least."""
+    """Pressure at the beginning and after each step of the way by Runge and Kutta, not below the least."""
     h = 1.0 / STEPS
 
     def loss(p: Any) -> Any:
         return -gradient(jnp.maximum(p, least))
 
-    def step(p: Any, _: Any) -> tuple[Any, None]:
+    def step(p: Any, _row: None) -> tuple[Any, Any]:
         a = loss(p)
         b = loss(p + 0.5 * h * a)
         c = loss(p + 0.5 * h * b)
         d = loss(p + h * c)
-        return jnp.maximum(p + h / 6.0 * (a + 2.0 * b + 2.0 * c + d), least), None
+        after = jnp.maximum(p + h / 6.0 * (a + 2.0 * b + 2.0 * c + d), least)
+        return after, after
 
-    return jax.lax.scan(step, jnp.maximum(jnp.asarray(pressure, dtype=float), least), None, length=STEPS)[0]
+    start = jnp.maximum(jnp.asarray(pressure, dtype=float), least)
+    return jnp.append(start, jax.lax.scan(step, start, None, length=STEPS)[1])

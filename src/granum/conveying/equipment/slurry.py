@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import jax.numpy as jnp
@@ -16,8 +17,10 @@ from granum.conveying.formulas.slurry import (
     pressure_gradient_slurry_durand,
     pressure_gradient_slurry_wilson,
 )
+from granum.conveying.inside_charts import drawn_friction
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE, STANDARD_GRAVITY
+from granum.core.i18n import _
 from granum.core.kinds import (
     Distance,
     Fraction,
@@ -36,7 +39,7 @@ from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.suspension import relative_viscosity_thomas
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream, median_of
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import PUMPED, pumped
 
 SOURCE = "wilson2006, ch. 5"
@@ -72,7 +75,7 @@ class Pumped(NamedTuple):
     size: Any
     share: Any
     suspended: Any
-    gradient: Any
+    pressure_gradient: Any
     drop: Any
 
 
@@ -178,7 +181,7 @@ class SlurryPipeline(Unit):
             velocity, self.diameter, liquid, viscosity, self.pipe_roughness
         )
         lifted = 0.0 * shares
-        for _ in range(PASSES):
+        for _pass in range(PASSES):
             shear = jnp.sqrt(jnp.maximum(gradient * self.diameter / (4.0 * mean), 1e-24))
             lifted = 10.0 ** (-1.8 * fall / (KARMAN * shear))
             even = jnp.sum(shares * lifted)
@@ -192,6 +195,13 @@ class SlurryPipeline(Unit):
             )
             gradient = vehicle * (1.0 + bed)
         return gradient, safe_divide(jnp.sum(shares * lifted), total)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed, pumped_ = inlets["feed"], made.inside
+        if not float(pumped_.velocity) > 0.0:
+            return {}
+        heading = _("Friction over the velocity")
+        return {heading: drawn_friction(self, feed, pumped_, float(pumped_.deposition))}
 
     def outlets(self, inside: Pumped, feed: Stream) -> Delivered:
         least = jnp.minimum(feed.pressure, STANDARD_ATMOSPHERE)

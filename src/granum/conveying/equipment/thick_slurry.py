@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, NamedTuple
 
 import jax.numpy as jnp
@@ -13,6 +14,7 @@ from granum.conveying.formulas.non_newtonian import (
     pressure_gradient_power_law,
     reynolds_critical_ryan_johnson,
 )
+from granum.conveying.inside_charts import drawn_friction
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE, STANDARD_GRAVITY
 from granum.core.errors import InputError
@@ -33,7 +35,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import PUMPED, pumped
 
 SLOW = 1e-6  # m/s
@@ -130,6 +132,11 @@ class ThickSlurryPipeline(Unit):
             gradient,
             drop,
         )
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        if not float(made.inside.velocity) > 0.0:
+            return {}
+        return {_("Friction over the velocity"): drawn_friction(self, inlets["feed"], made.inside)}
 
     def outlets(self, inside: ThickSlurryFigures, feed: Stream) -> Delivered:
         least = jnp.minimum(feed.pressure, STANDARD_ATMOSPHERE)

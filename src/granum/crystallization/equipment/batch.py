@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.errors import CaseError, GranumError
@@ -48,6 +50,7 @@ from granum.crystallization.equipment.roles import (
 )
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
+from granum.crystallization.inside_charts import drawn_course
 from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, VesselVolume
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
@@ -59,7 +62,7 @@ from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.stirring import heat_transfer_coefficient_stirred
 from granum.streams.stirrers import slurry_density
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated
 
 STEPS = 300
@@ -248,6 +251,15 @@ class BatchVessel(Unit):
         solvent = jnp.where(solvent > 0, solvent, TRICKLE)
         course = march(model, operation, seeds, charge.liquid[found.solute], solvent, times)
         return Grown(course, found, held)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        if not float(inlets["feed"].liquid_flow) > 0.0 or np.ndim(made.inside.course.time) != 1:
+            return {}
+        return drawn_course(made.inside.course, self.followed())
+
+    def followed(self) -> str:
+        """What the chart over time shows, in words."""
+        return _("The batch over time")
 
     def _product(self, inside: Grown, feed: Stream) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""

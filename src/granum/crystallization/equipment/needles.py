@@ -6,6 +6,7 @@ where the mixture has one, holds length over width; crystals then keep their sha
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -14,6 +15,7 @@ import numpy as np
 
 from granum.core import equipment
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Concentration,
     Distance,
@@ -52,6 +54,7 @@ from granum.crystallization.equipment.roles import (
     with_crystals,
 )
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
+from granum.crystallization.inside_charts import drawn_course
 from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume
 from granum.crystallization.population.needles import Lines, Segments, prisms
@@ -69,7 +72,7 @@ from granum.crystallization.vessels.needles import (
 from granum.numerics.smooth import safe_divide
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, median_of
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED
 
 AXIS = "aspect_ratio"
@@ -225,6 +228,11 @@ class NeedleBatchCrystallizer(Stirred, Unit):
         here = course.solute_per_solvent > UNDERSATURATED * course.solubility_per_solvent
         unsolved(jnp.all(here | (course.crystals <= 0.0)), type(self).card, reason=DISSOLVES)
         return GrownNeedles(course, found, held, seeds.number.shape[0])
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        if not float(inlets["feed"].liquid_flow) > 0.0:
+            return {}
+        return drawn_course(made.inside.course, _("The batch over time"))
 
     def outlets(self, inside: GrownNeedles, feed: Stream) -> BatchOutlets:
         course, found = inside.course, inside.found

@@ -4,6 +4,7 @@ born.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -34,6 +35,7 @@ from granum.core.limits import Limit
 from granum.crystallization.equipment.batch import STEPS, TRICKLE, BatchOutlets, BatchVessel, thermal
 from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
+from granum.crystallization.inside_charts import drawn_resolution
 from granum.crystallization.kinds import (
     Dissolution,
     Growth,
@@ -49,7 +51,7 @@ from granum.crystallization.vessels.enantiomers import Purity, Resolution, exces
 from granum.numerics.smooth import safe_divide
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED
 
 
@@ -204,6 +206,12 @@ class PreferentialCrystallizer(Stirred, Unit):
         )
         self.solubility(course.temperature)  # once more where its flags are heard
         return Resolved(end, course, times, W, found, held)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        resolved: Resolved = made.inside
+        if not float(inlets["feed"].liquid_flow) > 0.0:
+            return {}
+        return drawn_resolution(resolved.times, resolved.course, resolved.leaving)
 
     def outlets(self, inside: Resolved, feed: Stream) -> BatchOutlets:
         solid, liquid = feed.solid, feed.liquid

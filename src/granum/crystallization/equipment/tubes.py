@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import equipment
+from granum.core.i18n import _
 from granum.core.kinds import (
     Concentration,
     Distance,
@@ -142,6 +143,9 @@ class Tube(ChargedVessel):
 
     def _time(self, feed: Stream) -> Any:
         return safe_divide(self._held(feed), feed.slurry_volume_flow)
+
+    def followed(self) -> str:
+        return _("A parcel on its way through the tube")
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)

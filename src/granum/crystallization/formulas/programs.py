@@ -126,7 +126,11 @@ class NaturalCooling(Program):
     symbols={"time_points": "t_i", "temperature": "T_i"},
 )
 class TemperaturePoints(Program):
-    """Temperature by points in time, straight in between, constant outside: a recipe, or a logged batch."""
+    """Temperature by points in time, straight in between, constant outside: a recipe, or a logged batch.
+
+    >>> float(TemperaturePoints([0.0, 3600.0, 7200.0], [325.15, 315.15, 295.15])(1800.0))
+    320.15
+    """
 
     time_points: Annotated[Time, Series("points")]
     temperature: Annotated[Temperature, Series("points")]
@@ -186,6 +190,9 @@ class CoolingShares(Program):
 
     The shares count relative to their sum, so that each may be varied on its own between zero and one, for
     instance by an optimization.
+
+    >>> float(CoolingShares(325.15, 295.15, 7200.0, [0.2, 0.3, 0.5])(4800.0))
+    310.15
     """
 
     temperature_start: Temperature

@@ -44,7 +44,11 @@ class SolubilityLaw(eqx.Module):
     equation=r"C^* = C^*_{library}(T)",
 )
 class LibrarySolubility(SolubilityLaw):
-    """Solubility of a system of the materials library, over its stable crystal or over a named one."""
+    """Solubility of a system of the materials library, over its stable crystal or over a named one.
+
+    >>> round(float(LibrarySolubility("potassium nitrate")(293.15)), 2)
+    0.32
+    """
 
     solute: str = eqx.field(static=True)
     crystal: str = eqx.field(static=True, default="")
@@ -71,6 +75,9 @@ class LibrarySolubility(SolubilityLaw):
 class PolynomialSolubility(SolubilityLaw):
     """Solubility as a polynomial in the temperature in degrees Celsius, lowest power first, in kg per kg of
     solvent.
+
+    >>> round(float(PolynomialSolubility([0.13, 0.006, 0.0002])(283.15)), 4)
+    0.21
     """
 
     coefficients: Annotated[Number, Series("powers")]

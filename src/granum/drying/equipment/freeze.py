@@ -5,9 +5,12 @@ drying by desorption.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
+import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
@@ -35,7 +38,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
-from granum.drying.formulas.vials import SUBLIMATION_HEAT
+from granum.drying.formulas.vials import SUBLIMATION_HEAT, dry, vial_of
 from granum.drying.kinds import (
     EnergyPerVolume,
     HeatTransferPerPressure,
@@ -45,8 +48,9 @@ from granum.drying.kinds import (
     VaporResistanceGradient,
 )
 from granum.numerics import safe_divide
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, COLD_APPROACH, COOLED, HEATED, cooled, heated
 
 PUMPED = {
@@ -54,6 +58,9 @@ PUMPED = {
         "king1971, the pressure only: the energy of the pump is our own estimate"
     )
 }
+
+
+_dried = eqx.filter_jit(dry)
 
 
 class FreezeDried(NamedTuple):
@@ -170,6 +177,46 @@ class FreezeDryer(Unit):
 
     def outlets(self, inside: None, feed: Stream) -> FreezeDried:
         return sublimed(feed, self.moisture_outlet, self.temperature_shelf_secondary)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed = inlets["feed"]
+        if not float(feed.solid_flow) > 0.0:
+            return {}
+        vial = vial_of(
+            self.area_vial,
+            self.area_product,
+            self.volume_fill,
+            feed.solid_flow / feed.slurry_volume_flow,
+            feed.solid_density,
+            self.vial_coefficient_contact,
+            self.vial_coefficient_gas,
+            self.vial_coefficient_saturation,
+            self.vapor_resistance,
+            self.vapor_resistance_slope,
+            self.vapor_resistance_saturation,
+            self.pressure_chamber,
+        )
+        _total, path = _dried(vial, self.temperature_shelf_start, self.temperature_shelf, self.ramp_rate)
+        order = np.argsort(np.asarray(path.time), kind="stable")
+        time, shelf, front, bottom, flux = (
+            np.asarray(x)[order] for x in (path.time, path.shelf, path.front, path.bottom, path.flux)
+        )
+        hot = np.full(time.shape, float(self.temperature_limit))
+        drawn = drawn_along(
+            Axis("time", "Time"),
+            time,
+            (
+                Axis("temperature", "Temperature", "degC", zero=False),
+                [
+                    Curve(_("shelf"), shelf, "HEAT", "dash"),
+                    Curve(_("bottom of the product"), bottom, "SOLID"),
+                    Curve(_("ice front"), front, "LIQUID"),
+                    Curve(_("limit of the product"), hot, "GAS", "dot"),
+                ],
+            ),
+            (Axis("sublimation_flux", "MassFlux"), [Curve(_("sublimation"), flux, "ACCENT", "dash")]),
+        )
+        return {_("Primary drying of a vial"): drawn}
 
     def figures(self, inside: None, outlets: FreezeDried, feed: Stream) -> FreezeFigures:
         concentration = safe_divide(feed.solid_flow, feed.slurry_volume_flow)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.constants import STEFAN_BOLTZMANN
@@ -35,15 +37,16 @@ from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.equipment.freeze import PUMPED, FreezeDried, pump_power, sublimed
 from granum.drying.formulas.freeze_drying import secondary_drying_time
-from granum.drying.formulas.freeze_trays import freeze_drying_tray
+from granum.drying.formulas.freeze_trays import Layer, freeze_drying_tray
 from granum.drying.formulas.freezing import freezing_temperature_mean, freezing_time_pham
 from granum.drying.formulas.vials import COLDEST, SUBLIMATION_HEAT
 from granum.drying.kinds import AddedHeatTransferCoefficient, EnergyPerVolume, VaporPermeability
 from granum.drying.wet_surface import AS_SPECIFIED, as_specified
 from granum.humid_gas.pairs import ice_vapor_pressure
 from granum.numerics import find_root, safe_divide
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, COOLED, HEATED, cooled, heated
 
 FUSION_HEAT = 333.55e3  # J/kg, of ice at 0 °C
@@ -165,6 +168,41 @@ class TrayFreezeDryer(Unit):
 
     def outlets(self, inside: None, feed: Stream) -> FreezeDried:
         return sublimed(feed, self.moisture_outlet, self.temperature_shelf_secondary)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        time_primary = float(made.figures.drying_time_primary)
+        if not (float(inlets["feed"].solid_flow) > 0.0 and 0.0 < time_primary < math.inf):
+            return {}
+        layer = Layer(
+            jnp.asarray(self.temperature_shelf, dtype=float),
+            self.pressure_chamber,
+            self.thickness,
+            self.thermal_conductivity_dry,
+            self.thermal_conductivity_frozen,
+            self.vapor_permeability,
+            self.emissivity,
+            self.conduction_coefficient,
+        )
+        depth = jnp.linspace(0.0, float(self.thickness), 61)
+        surface, front, bottom, flux = (np.asarray(x) for x in layer.at(depth))
+        slowness = 1.0 / flux
+        passed = np.append(0.0, np.cumsum(0.5 * (slowness[1:] + slowness[:-1])))
+        time = time_primary * passed / passed[-1]
+        drawn = drawn_along(
+            Axis("time", "Time", label=_("time since the ice began to sublime")),
+            time,
+            (
+                Axis("temperature", "Temperature", "degC", zero=False),
+                [
+                    Curve(_("shelf"), np.full(time.shape, float(self.temperature_shelf)), "HEAT", "dash"),
+                    Curve(_("dry surface"), surface, "SOLID"),
+                    Curve(_("bottom of the ice"), bottom, "LIQUID", "dot"),
+                    Curve(_("ice front"), front, "LIQUID"),
+                ],
+            ),
+            (Axis("sublimation_flux", "MassFlux"), [Curve(_("sublimation"), flux, "ACCENT", "dash")]),
+        )
+        return {_("Sublimation of a tray"): drawn}
 
     def figures(self, inside: None, outlets: FreezeDried, feed: Stream) -> TrayFreezeFigures:
         wet = feed.solid_flow + feed.liquid_flow

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -48,11 +49,13 @@ from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled, dried_
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, HEATED, HOT_GAS, fanned, heated, warmth
 
 TRAY_HEADS = 10.0
+FOLLOWED = (20, 60)  # cells along the air and steps of the load that is drawn
 HEADS = "treybal1980, ch. 12, the speed only: ten velocity heads over the trays are our own estimate"
 _UNSOLVED = (
     "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation "
@@ -206,6 +209,36 @@ class TrayDryer(Unit):
             "flux": flux,
             "water": water,
         }
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed, gas = inlets["feed"], inlets["gas"]
+        heated_apart = float(self.radiated_heat) != 0.0
+        time = float(made.figures.drying_time)
+        if heated_apart or not (float(feed.liquid_flow) > 0.0 and 0.0 < time < math.inf):
+            return {}
+        load = _followed(self, feed, gas, jnp.asarray(1.2 * time), *FOLLOWED)
+        if not bool(load.converged):
+            return {}
+        drawn = drawn_along(
+            Axis("time", "Time", label=_("time since the trays came in")),
+            load.time,
+            (
+                Axis("moisture_dry_basis", "MoistureDryBasis"),
+                [
+                    Curve(_("mean of the tray"), load.moisture_mean, "SOLID"),
+                    Curve(_("where the air enters"), load.moisture[:, 0], "SOLID", "dash"),
+                    Curve(_("where the air leaves"), load.moisture[:, -1], "SOLID", "dot"),
+                ],
+            ),
+            (
+                Axis("temperature", "Temperature", "degC", zero=False),
+                [
+                    Curve(_("product where the air leaves"), load.temperature[:, -1], "ACCENT"),
+                    Curve(_("air as it leaves the trays"), load.gas_temperature[:, -1], "GAS", "dashdot"),
+                ],
+            ),
+        )
+        return {_("A load of the trays over time"): drawn}
 
     def batch(
         self, feed: Stream, gas: Stream, duration: Any = None, cells: int = 20, steps: int = 60

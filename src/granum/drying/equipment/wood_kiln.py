@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Density,
     Diffusivity,
@@ -48,8 +51,9 @@ from granum.humid_gas.pairs import AIR_WATER
 from granum.humid_gas.relations import saturated_fraction
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import FANNED, HEATED, HOT_GAS, fanned, heated, warmth
 
 GAS_DENSITY = 1.1  # kg/m³, of the air in the kiln
@@ -160,6 +164,35 @@ class WoodKiln(Unit):
         time, known = reached(found, first, jnp.minimum(self.moisture_outlet, first))
         unsolved(known, type(self).card, reason=NOT_REACHED)
         return Run(found, time, h, first)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        run: Run = made.inside
+        ends = float(run.time)
+        if not 0.0 < ends < math.inf:
+            return {}
+        dries = np.asarray(run.found.time) <= ends
+        found = [np.asarray(x)[dries] for x in run.found]
+        time, mean, core, surface, dry_bulb, wet_bulb, _humidity = found
+        moist = drawn_along(
+            Axis("time", "Time"),
+            time,
+            (
+                Axis("moisture_dry_basis", "MoistureDryBasis"),
+                [
+                    Curve(_("core"), core, "SOLID", "dash"),
+                    Curve(_("mean of the board"), mean, "SOLID"),
+                    Curve(_("surface"), surface, "SOLID", "dot"),
+                ],
+            ),
+            (
+                Axis("temperature", "Temperature", "degC", zero=False),
+                [
+                    Curve(_("air, dry bulb"), dry_bulb, "ACCENT"),
+                    Curve(_("air, wet bulb"), wet_bulb, "GAS", "dashdot"),
+                ],
+            ),
+        )
+        return {_("A charge of the kiln over time"): moist}
 
     def lost(self, inside: Run) -> Any:
         """Moisture that each step takes away, kg/kg."""

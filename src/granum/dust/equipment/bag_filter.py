@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     Concentration,
@@ -29,8 +32,9 @@ from granum.dust.formulas.bags import residual_drag_pulse_jet
 from granum.filtration.formulas.gas_filters import pressure_drop_dust_cake
 from granum.filtration.kinds import DustResistance, ResidualDrag
 from granum.numerics.smooth import safe_divide
+from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Utilities
+from granum.streams.units import Limits, Operated, Utilities
 from granum.streams.utilities import AREA, FANNED, compressed, fanned
 
 MANUAL = "turner1998"
@@ -124,6 +128,40 @@ class BagFilter(Collector):
             dust > 0.0, jnp.minimum(safe_divide(self.concentration_leakage, dust, otherwise=1.0), 1.0), 1.0
         )
         return Bagged(velocity, dust, mean, highest, 1.0 - passes + 0.0 * gas.size)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        bags: Bagged = made.inside
+        if not float(inlets["feed"].gas_flow) > 0.0:
+            return {}
+        time = np.linspace(0.0, float(self.cleaning_interval), 41)
+        load = float(bags.concentration) * float(bags.velocity) * time
+        drop = np.asarray(
+            pressure_drop_dust_cake(
+                bags.velocity, bags.concentration, jnp.asarray(time), self.drag, self.dust_resistance
+            )
+        )
+        drawn = drawn_along(
+            Axis("time", "Time", label=_("time since the last pulse")),
+            time,
+            (
+                Axis("pressure_drop", "PressureDrop"),
+                [
+                    Curve(_("one bag as it loads"), drop, "ACCENT"),
+                    Curve(_("all bags, mean"), np.full(time.shape, float(bags.drop)), "GAS", "dash"),
+                    Curve(
+                        _("clean cloth"),
+                        np.full(time.shape, float(self.drag * bags.velocity)),
+                        "GAS",
+                        "dot",
+                    ),
+                ],
+            ),
+            (
+                Axis("dry_mass_per_area", "MassPerArea", label=_("dust on the cloth")),
+                [Curve(_("dust on the cloth"), load, "SOLID", "dashdot")],
+            ),
+        )
+        return {_("A bag from pulse to pulse"): drawn}
 
     def outlets(self, inside: Bagged, feed: Stream) -> Cleaned:
         return self.parted(feed, inside.share, inside.drop)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import equipment
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     Concentration,
@@ -23,12 +26,14 @@ from granum.core.limits import Limit
 from granum.dust.equipment.collector import EMISSION, Collector, over_axes, seen, slip
 from granum.dust.formulas.scrubbers import grade_efficiency_mesh, impaction_number, target_efficiency_wire
 from granum.numerics.smooth import safe_divide
+from granum.streams.inside_charts import Mark, drawn_grade
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Utilities
+from granum.streams.units import Limits, Operated, Utilities
 from granum.streams.utilities import FANNED, fanned
 
 FRICTION = 0.3  # of the gas along the wires of a dry pad
 SLOWEST = 1e-3  # m/s
+DROPS = np.geomspace(0.5e-6, 50e-6, 81)  # m, of the curve that is drawn
 WATER = 1000.0  # kg/m³, of mist where the mixture has no liquid
 
 
@@ -98,21 +103,34 @@ class MeshPad(Collector):
     def inside(self, feed: Stream) -> Meshed:
         gas = seen(feed)
         velocity = jnp.maximum(gas.volume_flow / self.area, SLOWEST)
-        liquid = feed.liquid_density if feed.mixture.liquids else WATER
-        heavy = jnp.maximum(liquid, 2.0 * gas.density)
-        drag = (velocity, gas.viscosity, self.wire_diameter)
-
-        def caught(size: Any, density: Any, slipping: Any) -> Any:
-            target = target_efficiency_wire(impaction_number(size, density, *drag, slipping))
-            return grade_efficiency_mesh(target, self.mesh_surface, self.thickness)
-
+        heavy = self.heavy(feed)
         return Meshed(
             velocity,
             velocity * jnp.sqrt(gas.density / (heavy - gas.density)),
             FRICTION * self.mesh_surface * self.thickness * gas.density * velocity**2 / self.void_fraction**3,
-            caught(self.droplet_diameter, heavy, 1.0),
-            caught(gas.size, gas.particle_density, slip(gas, feed)),
+            self.caught(feed, velocity, self.droplet_diameter, heavy, 1.0),
+            self.caught(feed, velocity, gas.size, gas.particle_density, slip(gas, feed)),
         )
+
+    def heavy(self, feed: Stream) -> Any:
+        """Density of the mist, kg/m³."""
+        liquid = feed.liquid_density if feed.mixture.liquids else WATER
+        return jnp.maximum(liquid, 2.0 * seen(feed).density)
+
+    def caught(self, feed: Stream, velocity: Any, size: Any, density: Any, slipping: Any) -> Any:
+        """Share of a size caught by the whole pad."""
+        drag = (velocity, feed.gas_viscosity, self.wire_diameter)
+        target = target_efficiency_wire(impaction_number(size, density, *drag, slipping))
+        return grade_efficiency_mesh(target, self.mesh_surface, self.thickness)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed, inside = inlets["feed"], made.inside
+        if not float(feed.gas_flow) > 0.0:
+            return {}
+        mist = self.caught(feed, inside.velocity, jnp.asarray(DROPS), self.heavy(feed), 1.0)
+        works = Mark(_("the mist here"), self.droplet_diameter, inside.mist)
+        drawn = drawn_grade(DROPS, mist, marks=[works], across="droplet_diameter")
+        return {_("Drops that the pad catches"): drawn}
 
     def outlets(self, inside: Meshed, feed: Stream) -> Demisted:
         drained = feed.part(solid=over_axes(inside.share, feed), liquid=inside.mist)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -9,6 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.flags import beyond, unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     HeatTransferCoefficient,
@@ -25,12 +27,13 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.evaporation.boiling import DRIEST, Effect, Liquor, boil, condensed, entrained
+from granum.evaporation.inside_charts import drawn_boiling
 from granum.evaporation.kinds import EVAPORATION_SOURCE, ThermalResistance
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
 from granum.streams.formulas.drives import shaft_power_adiabatic
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities, Utility
+from granum.streams.units import Limits, Operated, Unit, Utilities, Utility
 from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, driven, heated
 
 STEAM_RATIO = 1.3  # of the heat capacities of low-pressure steam
@@ -174,6 +177,13 @@ class _Single(Heating):
         beyond(made.found & ~cold & ~boils, self.area, "area", card, low=needed, reason=COLD_FEED)
         beyond(made.left <= DRY_OUT, self.area, "area", card, 0.0, needed, reason=DRY)
         return liquor, made, chest
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        feed = inlets["feed"]
+        liquor, effect, chest = made.inside[:3]
+        if not (len(feed.mixture.liquids) > 1 and float(jnp.sum(feed.liquid[1:])) > 0.0):
+            return {}
+        return {_("How the solution boils as it thickens"): drawn_boiling(liquor, effect, chest, feed)}
 
     def told(self, liquor: Liquor, made: Effect, chest: Any, bought: Any) -> EvaporatorFigures:
         """Figures, where some heat is bought as steam."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, NamedTuple
 
 import equinox as eqx
@@ -11,6 +12,7 @@ from jax import lax
 
 from granum.core import equipment
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     HeatTransferCoefficient,
     MassFlow,
@@ -23,11 +25,12 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.evaporation.boiling import Effect, Liquor, boil, condensed, entrained
 from granum.evaporation.equipment.evaporator import Heating
+from granum.evaporation.inside_charts import drawn_effects
 from granum.evaporation.kinds import EVAPORATION_SOURCE
 from granum.numerics import Newton, solve_system
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, empty
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Operated
 from granum.streams.utilities import HEAT_APPROACH, heated
 
 UNSOLVED = (
@@ -172,6 +175,12 @@ class MultipleEffectEvaporator(Heating):
             self.settled(liquor, made)
             liquor.excess(made.temperature, made.pure, made.product.liquid)  # where its flags are heard
         return train
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        train: Train = made.inside
+        if not float(inlets["feed"].liquid_flow) > 0.0:
+            return {}
+        return {_("From effect to effect"): drawn_effects(train.effects, train.chest)}
 
     def outlets(self, inside: Train, feed: Stream) -> FromTrain:
         product = {

@@ -38,12 +38,13 @@ from granum.filtration.membranes import Membrane, matter, staged
 from granum.numerics.loops import told_scan
 from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.drives import shaft_power_incompressible
-from granum.streams.inside_charts import Axis, Curve, drawn_along
+from granum.streams.inside_charts import Axis, Curve, Mark, drawn_along
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, PUMP, PUMPED, driven
 
 SOURCE = "cheryan1998"
+PRESSED = (0.2, 2.0, 37)  # of the pressure as it runs, between which the flux is drawn, and points
 HELD = (
     "Nothing permeates: the feed holds as much osmotic pressure or as much matter at the membrane as the "
     "pressure overcomes. Give a higher pressure, a thinner feed or more fresh solvent."
@@ -148,8 +149,10 @@ class _Plant(Unit):
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         chain, count = made.inside, len(made.inside.flux)
-        if count < 2 or not float(inlets["feed"].liquid_flow) > 0.0:
+        if not float(inlets["feed"].liquid_flow) > 0.0:
             return {}
+        if count < 2:
+            return {_("Flux over the pressure"): self.pressed(chain, inlets)}
         drawn = drawn_along(
             Axis("stage_count", "Number", "", _("stage")),
             np.arange(1, count + 1),
@@ -159,6 +162,23 @@ class _Plant(Unit):
         )
         drawn.update_xaxes(dtick=1)
         return {_("From stage to stage"): drawn}
+
+    def pressed(self, chain: Chain, inlets: Mapping[str, Stream]) -> Any:
+        """Flux of the one stage over the pressure, with the osmotic pressure of what it holds."""
+        streams = [inlets["feed"], *(inlets[port] for port in inlets if port != "feed")]
+        pressures = self.pressure_drop * np.linspace(*PRESSED)
+
+        flux, osmotic = _pressed(self, streams, jnp.asarray(pressures))
+        return drawn_along(
+            Axis("pressure_drop", "PressureDrop", label=_("pressure across the membrane")),
+            pressures,
+            (Axis("filtrate_flux", "Speed"), [Curve(_("flux"), flux, "LIQUID")]),
+            (
+                Axis("osmotic_pressure", "Pressure"),
+                [Curve(_("osmotic pressure of the retentate"), osmotic, "SOLID", "dash")],
+            ),
+            marks=[Mark(_("as it runs"), self.pressure_drop, chain.flux[0])],
+        )
 
     def against(self, chain: Chain, count: int) -> tuple[Axis, list[Curve]]:
         """What holds the flux down, from stage to stage."""
@@ -174,6 +194,17 @@ class _Plant(Unit):
         """Mean and last flux, and the permeate of all stages, m³/s."""
         mean = jnp.mean(chain.flux)
         return mean, chain.flux[-1], mean * self.area
+
+
+@eqx.filter_jit
+def _pressed(plant: _Plant, streams: list[Stream], pressures: Any) -> tuple[Any, Any]:
+    """Flux and osmotic pressure of the first stage at several pressures."""
+
+    def at(pressure: Any) -> tuple[Any, Any]:
+        there = eqx.tree_at(lambda p: p.pressure_drop, plant, pressure).inside(*streams)
+        return there.flux[0], there.osmotic[0]
+
+    return jax.vmap(at)(pressures)
 
 
 def _dissolved(stream: Stream) -> Any:
