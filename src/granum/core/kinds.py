@@ -124,7 +124,7 @@ SpecificSurfaceMass = Annotated[Any, _positive("surface per mass", "m^2/kg", "m^
 ReciprocalLength = Annotated[Any, _nonnegative("reciprocal length", "1/m", "1/m", "1/mm")]
 MassPerArea = Annotated[Any, _positive("mass per area", "kg/m^2", "kg/m^2", "g/m^2")]
 MassPerAreaOrZero = Annotated[Any, _nonnegative("mass per area", "kg/m^2", "g/cm^2")]
-NumberPerArea = Annotated[Any, _nonnegative("number per area", "1/m^2", "1/m^2", "1/cm^2")]
+NumberPerArea = Annotated[Any, _positive("number per area", "1/m^2", "1/m^2", "1/cm^2")]
 # mass, amount, flow
 Mass = Annotated[Any, _nonnegative("mass", "kg", "kg", "g", "mg", "tonne", "lb", "ug")]
 MassFlow = Annotated[Any, _nonnegative("mass flow", "kg/s", "kg/hour", "tonne/hour", "lb/hour")]
