@@ -112,6 +112,7 @@ Length = Annotated[Any, _positive("length", "m", "um", "mm", "m", "cm", "nm", "i
 Distance = Annotated[Any, _nonnegative("distance", "m", "m", "mm", "cm", "um", "ft")]
 Position = Annotated[Any, _any("position", "m", "m", "mm", "cm", "ft")]
 Area = Annotated[Any, _positive("area", "m^2", "m^2", "cm^2", "mm^2", "ft^2")]
+MolecularArea = Annotated[Any, _positive("molecular area", "m^2", "nm^2", "angstrom^2")]
 AreaOrZero = Annotated[Any, _nonnegative("area", "m^2", "m^2", "cm^2", "mm^2", "ft^2")]
 Volume = Annotated[Any, _nonnegative("volume", "m^3", "m^3", "L", "mL", "cm^3", "ft^3")]
 Angle = Annotated[Any, _any("angle", "radian", "degree")]
