@@ -118,7 +118,7 @@ def solute_remaining_reslurry(reslurry_ratio: Ratio, wash_stages: PositiveNumber
 @formula(
     source="coe1916; richardson2002, eq. 10.16",
     title="Solute lost by countercurrent decantation",
-    equation=r"F = \frac{1}{f\,\frac{w^n - 1}{w - 1} + w^n}",
+    equation=r"F = \frac{1}{f\,\frac{w^N - 1}{w - 1} + w^N}",
     typical={"wash_ratio": (1.0, 4.0), "wash_stages": (2.0, 6.0)},
 )
 def solute_remaining_countercurrent(

@@ -22,8 +22,8 @@ def adsorbed_volume_bet(
 ) -> SpecificVolume:
     """Gas adsorbed on a solid in layers without end, by Brunauer, Emmett and Teller.
 
-    >>> adsorbed_volume_bet(relative_pressure=0.5, monolayer_volume=1e-3, monolayer_constant=1.0)
-    0.001
+    >>> round(adsorbed_volume_bet(relative_pressure=0.25, monolayer_volume=3e-3, monolayer_constant=9.0), 9)
+    0.003
     """
     x, C = relative_pressure, monolayer_constant
     return monolayer_volume * C * x / ((1.0 - x) * (1.0 + (C - 1.0) * x))

@@ -19,7 +19,7 @@ LARGER_THAN_THE_LOT = "A sample is smaller than its lot."
 @formula(
     source="lacey1954, p. 259; earle2004, eq. 12.3",
     title="Deviation between samples of a random mixture",
-    equation=r"s_r = \sqrt{\frac{p(1-p)}{n}}",
+    equation=r"s = \sqrt{\frac{p(1-p)}{n}}",
 )
 def composition_deviation_random(component_fraction: Share, particles_per_sample: Grains) -> Fraction:
     """Standard deviation of the composition between samples of a mixture that is as random as it can be.
@@ -80,14 +80,17 @@ def _constant(d, free, a, mineral, gangue, f, g):
     return f * g * liberation * mineral_factor_gy(a, mineral, gangue) * d**3
 
 
-_EQUATION = r"s_{FSE}^2 = f g \sqrt{\frac{d_l}{d}}\,c\,d^3\left(\frac1m - \frac1{m_L}\right)"
-_NOTE = {"sample_mass": "m", "mineral_factor": "c"}
+_FACTORS = (
+    r",\quad C = f g \sqrt{\frac{d_l}{d}}\,c\,d^3,\quad c = \frac{1-a}{a}\left[(1-a)\rho_m + a\rho_g\right]"
+)
+_MASS = r"m = \frac{1}{\frac{s_{FSE}^2}{C} + \frac{1}{m_L}}" + _FACTORS
+_EQUATION = r"s_{FSE}^2 = C\left(\frac1m - \frac1{m_L}\right)" + _FACTORS
 
 
-@formula(source="gy1979, ch. 19; wills2016, ch. 3", equation=_EQUATION, symbols=_NOTE)
+@formula(source="gy1979, ch. 19; wills2016, ch. 3", equation=_EQUATION)
 def sampling_error_gy(
     sample_mass: SampleMass,
-    top_size: Length,
+    largest_size: Length,
     liberation_size: Length,
     mineral_fraction: Share,
     mineral_density: Density,
@@ -105,7 +108,7 @@ def sampling_error_gy(
 
     >>> round(
     ...     sampling_error_gy(
-    ...         sample_mass="178.3 kg", top_size="25 mm", liberation_size="150 um",
+    ...         sample_mass="178.3 kg", largest_size="25 mm", liberation_size="150 um",
     ...         mineral_fraction=0.05 / 0.866, mineral_density=7500, gangue_density=2650,
     ...     ),
     ...     3,
@@ -113,7 +116,7 @@ def sampling_error_gy(
     0.01
     """
     C = _constant(
-        top_size, liberation_size, mineral_fraction, mineral_density, gangue_density,
+        largest_size, liberation_size, mineral_fraction, mineral_density, gangue_density,
         grain_shape_factor, size_range_factor,
     )  # fmt: skip
     if lot_mass is None:
@@ -122,10 +125,10 @@ def sampling_error_gy(
     return safe_sqrt(C * jnp.maximum(1.0 / sample_mass - 1.0 / lot_mass, 0.0))
 
 
-@formula(source="gy1979, ch. 19; wills2016, ch. 3", equation=_EQUATION, symbols=_NOTE)
+@formula(source="gy1979, ch. 19; wills2016, ch. 3", equation=_MASS)
 def sample_mass_gy(
     sampling_error: PositiveNumber,
-    top_size: Length,
+    largest_size: Length,
     liberation_size: Length,
     mineral_fraction: Share,
     mineral_density: Density,
@@ -141,14 +144,14 @@ def sample_mass_gy(
 
     >>> round(
     ...     sample_mass_gy(
-    ...         sampling_error=0.01, top_size="25 mm", liberation_size="150 um",
+    ...         sampling_error=0.01, largest_size="25 mm", liberation_size="150 um",
     ...         mineral_fraction=0.05 / 0.866, mineral_density=7500, gangue_density=2650,
     ...     )
     ... )
     178
     """
     C = _constant(
-        top_size, liberation_size, mineral_fraction, mineral_density, gangue_density,
+        largest_size, liberation_size, mineral_fraction, mineral_density, gangue_density,
         grain_shape_factor, size_range_factor,
     )  # fmt: skip
     endless = C / sampling_error**2
