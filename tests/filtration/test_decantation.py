@@ -7,7 +7,9 @@ from granum.core.errors import ApplicabilityError
 from granum.filtration import solute_remaining_countercurrent
 
 
-@pytest.mark.parametrize(("wash", "stages", "feed"), [(0.5, 2, 1.0), (1.0, 4, 1.0), (2.5, 3, 3.0), (3.0, 6, 0.7)])
+@pytest.mark.parametrize(
+    ("wash", "stages", "feed"), [(0.5, 2, 1.0), (1.0, 4, 1.0), (2.5, 3, 3.0), (3.0, 6, 0.7)]
+)
 def test_each_thickener_in_balance(wash, stages, feed):
     A, b = np.zeros((stages, stages)), np.zeros(stages)
     for k in range(stages):  # underflows of one, overflows of the wash, the first with the feed's liquor too

@@ -348,7 +348,11 @@ class Binder:
         def value_of(name: str) -> Any:
             place = self.index[name]
             known = args[place] if place < len(args) else values.get(name, self.parameters[place].default)
-            return None if known is REQUIRED or known is None else convert(known, self.parameters[place], "", True)
+            return (
+                None
+                if known is REQUIRED or known is None
+                else convert(known, self.parameters[place], "", True)
+            )
 
         standing = StandIns(self.owner, self.index, len(args), values, value_of, origins)
         standing.settle()

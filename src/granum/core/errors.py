@@ -73,7 +73,13 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
 
 
 def unknown_name(
-    what: str, name: str, known: Iterable[str], where: str = "", *, quantities: bool = True, meant: str | None = None
+    what: str,
+    name: str,
+    known: Iterable[str],
+    where: str = "",
+    *,
+    quantities: bool = True,
+    meant: str | None = None,
 ) -> InputError:
     """The one error for a name that does not exist: it lists or suggests those that do. Names that are not
     ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name. ``meant`` is the known one

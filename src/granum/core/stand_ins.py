@@ -54,6 +54,8 @@ def stands_for(name: str, known: Container[str]) -> str | None:
     if name == "standard":
         lengths = ("inlet_height", "finder_length", "diameter")
         return lengths[0] if all(length in known for length in lengths) else None
+    if name == "diameter" and "area" in known and "underflow_concentration" in known:
+        return "area"  # of a round thickener
     if name in _BY_DIAMETER:
         return _BY_DIAMETER[name] if _BY_DIAMETER[name] in known and "diameter" in known else None
     wanted = _BY_DENSITY[name][0] if name in _BY_DENSITY else name.replace("diameter", "radius")
@@ -92,6 +94,9 @@ class StandIns:
                 section = math.pi / 4.0 * self._needed(name, "diameter") ** 2
                 flow = _number(self.values[name], kind, name)
                 self._put(name, wanted, flow / section, _("flow over the cross-section of the diameter"))
+            elif wanted == "area":
+                across = _number(self.values[name], KINDS["Length"], name)
+                self._put(name, wanted, math.pi / 4.0 * across**2, _("circle of the diameter"))
             else:
                 across = _number(self.values[name], KINDS["Length"], name)
                 self._put(name, wanted, across / 2.0, _("half the diameter"))

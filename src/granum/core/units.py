@@ -42,7 +42,9 @@ def affine_by_pint(unit: str, kind_unit: str) -> tuple[float, float]:
             f"{above}/({'*'.join(DEGREES.get(f, f) for f in factors if f)})",
             re.sub(r"\b(lb|kg)\b", r"\1f", unit, count=1),
         )
-        product = below or re.search(r"[A-Za-z]\s*[-*·. ]\s*[A-Za-z]", unit)  # ft-lb, kg m: a force over a length
+        product = below or re.search(
+            r"[A-Za-z]\s*[-*·. ]\s*[A-Za-z]", unit
+        )  # ft-lb, kg m: a force over a length
         meant = [text for text in readings if product and text != unit and fits(text, kind_unit)]
         other = re.sub(r"[A-Za-z]+", lambda word: ELSE.get(word[0], word[0]), unit)
         meant += [other] if other != unit and fits(other, kind_unit) else []

@@ -27,7 +27,7 @@ OCEAN = 0.035
 @formula(
     source="sharqawy2010, eq. 8",
     title="Density of seawater",
-    equation=r"\rho = \sum_{i=0}^4 a_i t^i + \sum_{i=0}^3 b_i S t^i + b_4 S^2 t^2,\quad t = T - 273.15",
+    equation=r"\rho_l = \sum_{i=0}^4 a_i t^i + \sum_{i=0}^3 b_i S t^i + b_4 S^2 t^2,\quad t = T - 273.15",
     fitted={"temperature": (ZERO_CELSIUS, 453.15), "salinity": (0.0, 0.16)},
     output="liquid_density",
 )

@@ -62,9 +62,7 @@ def mixing_index_lacey(
     source="gy1979, ch. 19; wills2016, ch. 3",
     equation=r"c = \frac{1-a}{a}\left[(1-a)\rho_m + a\rho_g\right]",
 )
-def mineral_factor_gy(
-    mineral_fraction: Share, mineral_density: Density, gangue_density: Density
-) -> Density:
+def mineral_factor_gy(mineral_fraction: Share, mineral_density: Density, gangue_density: Density) -> Density:
     """Mineralogical factor of Gy's formula: how much a grain of pure mineral weighs in the error of a sample.
 
     >>> round(mineral_factor_gy(mineral_fraction=0.5, mineral_density=5000, gangue_density=2600), 6)
@@ -108,8 +106,12 @@ def sampling_error_gy(
 
     >>> round(
     ...     sampling_error_gy(
-    ...         sample_mass="178.3 kg", largest_size="25 mm", liberation_size="150 um",
-    ...         mineral_fraction=0.05 / 0.866, mineral_density=7500, gangue_density=2650,
+    ...         sample_mass="178.3 kg",
+    ...         largest_size="25 mm",
+    ...         liberation_size="150 um",
+    ...         mineral_fraction=0.05 / 0.866,
+    ...         mineral_density=7500,
+    ...         gangue_density=2650,
     ...     ),
     ...     3,
     ... )
@@ -144,8 +146,12 @@ def sample_mass_gy(
 
     >>> round(
     ...     sample_mass_gy(
-    ...         sampling_error=0.01, largest_size="25 mm", liberation_size="150 um",
-    ...         mineral_fraction=0.05 / 0.866, mineral_density=7500, gangue_density=2650,
+    ...         sampling_error=0.01,
+    ...         largest_size="25 mm",
+    ...         liberation_size="150 um",
+    ...         mineral_fraction=0.05 / 0.866,
+    ...         mineral_density=7500,
+    ...         gangue_density=2650,
     ...     )
     ... )
     178

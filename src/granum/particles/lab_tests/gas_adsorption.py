@@ -67,13 +67,16 @@ class GasAdsorption(LabTest):
                 "three are needed. Take readings there, or set 'every_point' to count all."
             )
             raise InputError(
-                message.format(count=np.unique(x[used]).size, low=LOWEST, high=HIGHEST), name="relative_pressure"
+                message.format(count=np.unique(x[used]).size, low=LOWEST, high=HIGHEST),
+                name="relative_pressure",
             )
         x, v = x[used], v[used]
         slope, intercept = straight_line(x, x / (v * (1.0 - x)))
         if slope + intercept <= 0.0:
             raise InputError(
-                _("These points have no monolayer: the gas adsorbed rises more steeply than layers on layers."),
+                _(
+                    "These points have no monolayer: the gas adsorbed rises more steeply than layers on layers."
+                ),
                 name="adsorbed_volume",
             )
         monolayer = 1.0 / (slope + intercept)
