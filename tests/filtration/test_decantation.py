@@ -24,8 +24,8 @@ def test_each_thickener_in_balance(wash, stages, feed):
 
 
 def test_caustic_soda_by_the_book():
-    # Coulson and Richardson, volume 2, chapter 10 (problem opened, its answer recalled): with four liquors over
-    # each underflow 3.11 thickeners lose 1 % of the soda, so four are built
+    # Coulson and Richardson, volume 2, chapter 10 (problem opened, its answer recalled): with four liquors
+    # over each underflow 3.11 thickeners lose 1 % of the soda, so four are built
     assert solute_remaining_countercurrent(wash_ratio=4, wash_stages=3.11) == pytest.approx(0.01, rel=0.02)
     with pytest.raises(ApplicabilityError, match="at least the liquor"):
         solute_remaining_countercurrent(wash_ratio=0.2, wash_stages=2, feed_liquor_ratio=0.5)

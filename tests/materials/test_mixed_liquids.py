@@ -11,7 +11,8 @@ from granum.particles import terminal_velocity_stokes
     [(0.2, 1.76), (0.4, 3.72), (0.5, 6.00), (0.6, 10.8), (0.8, 60.1), (0.9, 219), (1, 1410)],
 )
 def test_glycerol_with_water_by_the_makers_table(share, printed):
-    # Glycerine Producers' Association (1963), Physical Properties of Glycerine and Its Solutions, 20 °C, cP (recalled)
+    # Glycerine Producers' Association (1963), Physical Properties of Glycerine and Its Solutions, 20 °C, cP
+    # (recalled)
     found = 1e3 * dynamic_viscosity_glycerol_water("20 degC", share)
     assert found == pytest.approx(printed, rel=0.025)
 

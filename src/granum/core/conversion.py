@@ -17,7 +17,6 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.kinds import KINDS
 from granum.core.parameters import REQUIRED, Parameter
 from granum.core.stand_ins import StandIns
 

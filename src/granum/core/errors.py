@@ -82,8 +82,8 @@ def unknown_name(
     meant: str | None = None,
 ) -> InputError:
     """The one error for a name that does not exist: it lists or suggests those that do. Names that are not
-    ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name. ``meant`` is the known one
-    where that is certain.
+    ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name.
+    ``meant`` is the known one where that is certain.
     """
     known = sorted(known)
     close = meant or nearest(name, known)

@@ -1,5 +1,5 @@
-"""What people state in place of an input: a kinematic viscosity, a mass flux, the diameter of what a card knows by
-its radius, a standard design for its lengths.
+"""What people state in place of an input: a kinematic viscosity, a mass flux, the diameter of what a card
+knows by its radius, a standard design for its lengths.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ def stands_for(name: str, known: Container[str]) -> str | None:
 
 @dataclass
 class StandIns:
-    """The ``values`` of one call of ``owner``, whose inputs are the ``known``, while what stands for an input is
-    put in its place. ``density_of`` reads the value of an input, given or by default, or says that there is none.
+    """The ``values`` of one call of ``owner``, whose inputs are the ``known``, while what stands for an input
+    is put in its place. ``value_of`` reads an input, given or by default, or says that there is none.
     """
 
     owner: str

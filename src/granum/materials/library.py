@@ -138,7 +138,9 @@ class Library:
         raise unknown_name(_(_SORTS[sort]), name, known)
 
     def called(self, name: str, *sorts: str) -> str | None:
-        """What the library calls a material, of the first of the ``sorts`` that knows it; None where none does."""
+        """What the library calls a material, by the first of the ``sorts`` that knows it; None where none
+        does.
+        """
         for sort in sorts:
             with suppress(InputError):
                 return self.entry(sort, name)[0]

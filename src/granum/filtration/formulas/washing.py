@@ -128,8 +128,8 @@ def solute_remaining_countercurrent(
     against one another (countercurrent decantation, CCD).
 
     The ratio is wash liquor per liquor of an underflow, the same from each thickener; ``feed_liquor_ratio``
-    is the liquor that comes with the feed over it. Liquors are mixed wholly, nothing dissolves or is adsorbed.
-    Thickeners that mix badly need about a fifth more stages.
+    is the liquor that comes with the feed over it. Liquors are mixed wholly, nothing dissolves or is
+    adsorbed.
 
     >>> solute_remaining_countercurrent(wash_ratio=2.0, wash_stages=3)
     0.06666666666666667

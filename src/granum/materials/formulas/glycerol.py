@@ -33,7 +33,8 @@ def glycerol_viscosity(temperature: Temperature) -> DynamicViscosity:
 @formula(
     source="cheng2008, eq. 6, 12 and 21–22",
     title="Viscosity of glycerol with water",
-    equation=r"\eta = \eta_w^{\alpha}\,\eta_g^{1-\alpha},\quad \alpha = 1 - x + \frac{a b\,x(1-x)}{a x + b(1-x)},\quad"
+    equation=r"\eta = \eta_w^{\alpha}\,\eta_g^{1-\alpha},\quad"
+    r" \alpha = 1 - x + \frac{a b\,x(1-x)}{a x + b(1-x)},\quad"
     r" a = a(T),\quad b = b(T)",
     fitted=_RANGE,
     output="dynamic_viscosity",

@@ -36,8 +36,8 @@ class GasAdsorption(LabTest):
     Teller.
 
     Only points at relative pressures from 0.05 to 0.30 count unless ``every_point``, readings with equal
-    relative weight, where the customary plot would weigh those at high pressure most. The surface is that of the monolayer; pores narrower than 2 nm fill before and make it
-    look larger.
+    relative weight, where the customary plot would weigh those at high pressure most. The surface is that of
+    the monolayer; pores narrower than 2 nm fill before and make it look larger.
 
     >>> test = GasAdsorption(
     ...     relative_pressure=[0.05, 0.1, 0.2, 0.3],
@@ -75,7 +75,8 @@ class GasAdsorption(LabTest):
         if slope + intercept <= 0.0:
             raise InputError(
                 _(
-                    "These points have no monolayer: the gas adsorbed rises more steeply than layers on layers."
+                    "These points have no monolayer: the gas adsorbed rises more steeply than layers on "
+                    "layers."
                 ),
                 name="adsorbed_volume",
             )
