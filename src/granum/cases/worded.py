@@ -55,8 +55,9 @@ def study_text(
     thing: Any = registry.find(key)
     if thing.card.sort in ("formula", "law", "procedure"):
         known = thing.card.inputs
-        for name in words:
-            if name == "fluid" or stands_for(name, known):
+        for name, value in words.items():
+            fixed = not any(mark in value for mark in ("..", "±", "+-"))
+            if name == "fluid" or (fixed and stands_for(name, known)):
                 continue  # in place of the properties that the card asks of it
             if name.partition(".")[0].partition("[")[0] not in known:
                 raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=key))

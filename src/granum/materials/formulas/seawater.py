@@ -113,7 +113,7 @@ def seawater_conductivity(temperature: Temperature, salinity: Salinity = OCEAN) 
 
 @formula(
     source="sharqawy2010, eq. 32",
-    title="Vapor pressure of seawater",
+    title="Pressure of the vapor of seawater",
     equation=r"p_v = \frac{p_{v,w}(T)}{1 + 0.57357\,\frac{S}{1-S}}",
     fitted={"temperature": (ZERO_CELSIUS, 453.15), "salinity": (0.0, 0.16)},
     output="vapor_pressure",
