@@ -20,6 +20,10 @@ winter = thick[5] / thick[20]
 air = {t: m.gas_properties(temperature=f"{t} degC") for t in (20, 300)}
 air_thicker = float(air[300].dynamic_viscosity) / float(air[20].dynamic_viscosity)
 air_lighter = float(air[20].gas_density) / float(air[300].gas_density)
+# ---- liquids of trade
+glycerol = {w: m.dynamic_viscosity_glycerol_water("20 degC", w) for w in (0.99, 1.0)}
+ocean = m.fluid("seawater")
+sea = {"density": ocean.liquid_density("20 degC"), "viscosity": 1e3 * ocean.liquid_viscosity("20 degC")}
 # ---- warm
 per_kilogram = float(m.water_enthalpy("60 degC")) - float(m.water_enthalpy("20 degC"))
 heater = 10e3 / 3600.0 * per_kilogram

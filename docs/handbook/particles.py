@@ -71,6 +71,18 @@ def grains(mass, millimeter, share):
 coarse = {gram: grains(gram * 1e-3, 3.3, 0.025) for gram in (10, 100, 1000)}
 error = {gram: 1 / n**0.5 for gram, n in coarse.items()}
 
+# ---- ore
+LEAD = {
+    "sampling_error": 0.01,
+    "liberation_size": "150 um",
+    "mineral_fraction": 0.05 / 0.866,
+    "mineral_density": "7.5 g/cm3",
+    "gangue_density": "2.65 g/cm3",
+}
+lead = {mm: p.sample_mass_gy(largest_size=f"{mm} mm", **LEAD) for mm in (25, 5, 1)}
+mince = p.mixing_index_lacey(0.0068**0.5, component_fraction=0.15, particles_per_sample=50)
+mince_best = p.composition_deviation_random(component_fraction=0.15, particles_per_sample=50)
+
 # ---- drag
 ranking = p.drag_ranking()
 order = [str(name) for name in ranking.drag]

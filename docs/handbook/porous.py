@@ -1,17 +1,26 @@
 """What the chapter on porous media states, calculated."""
 
 from math import pi
+from pathlib import Path
 
 import numpy as np
 from validation import porous_bed
 
 import granum as gr
 from granum.app.chapters import said
+from granum.app.shipped import examples_folder
 from granum.core import registry
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 
 po = gr.porous
 WATER = {"fluid_density": 998.2, "dynamic_viscosity": "1.002 mPa s"}
+
+# ---- mercury
+pore = {bar: po.pore_diameter_washburn(f"{bar} bar") for bar in (1, 1000)}
+mercury = po.MercuryPorosimetry.read(
+    Path(examples_folder()) / "lab-tests" / "mercury_porosimetry_made.csv", solid_density="2650 kg/m3"
+).fit()
+median, pores = mercury["pore_diameter"], mercury["void_fraction"].value
 
 # ---- sand
 SAND = {"particle_diameter": "0.5 mm", "void_fraction": 0.40}

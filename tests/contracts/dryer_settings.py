@@ -5,6 +5,7 @@ numbers between 0 and 1.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -193,7 +194,7 @@ def _flash(x: Any, product: Any, more: Any) -> Setting:
     return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
 
 
-def _spray(x: Any, product: Any, more: Any) -> Setting:
+def _spray(x: Any, product: Any, more: Any, entrainment: bool = False) -> Setting:
     X = between(x[1], 0.5, 4.0)
     d = duty(POWDER, x, hottest=573.0, X=X)
     kinetics = product(x[18], x[19], X)
@@ -207,6 +208,7 @@ def _spray(x: Any, product: Any, more: Any) -> Setting:
         kinetics,
         dry_density=1200.0,
         cells=40,
+        entrainment=entrainment,
     )
     return Setting(unit, {"feed": d.feed, "gas": d.gas.part(gas=more)}, kinetics.isotherm)
 
@@ -303,6 +305,7 @@ WITH_CELLS: dict[str, Callable[..., Setting]] = {
     "vibrated bed": _vibrated,
     "flash": _flash,
     "spray": _spray,
+    "spray with dust": partial(_spray, entrainment=True),
     "spray counter-current": _tower,
     "belt": _belt,
     "silo": _silo,

@@ -290,3 +290,34 @@ def test_a_ton_of_two_meanings_is_refused(unit: str) -> None:
     with pytest.raises(UnitError, match="short ton"):
         unit_names.parse_unit(unit)
     assert unit_names.parse_unit(unit.replace("tons", "ton").replace("ton", "short_ton"))
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "right"),
+    [
+        ("5 ft-lb", "Energy", 5.0 * 1.3558179),
+        ("5 in-lb", "Torque", 5.0 * 1.3558179 / 12.0),
+        ("3 kg m", "Energy", 3.0 * 9.80665),
+        ("2 Nm", "Torque", 2.0),
+        ("$10,000", "Cost", 1e4),
+    ],
+)
+def test_units_of_the_shop_floor(text: str, kind: str, right: float) -> None:
+    assert units.read_quantity(text, KINDS[kind]) == pytest.approx(right, rel=1e-6)
+
+
+@pytest.mark.parametrize("unit", ["Nm3/h", "Nm³/h", "scfm", "MMSCFD", "NL/min", "mg/Nm3"])
+def test_gas_at_a_standard_state_is_refused_in_words(unit: str) -> None:
+    with pytest.raises(UnitError, match="standard state"):
+        unit_names.parse_unit(unit)
+
+
+def test_gas_at_a_standard_state_is_read_where_it_is_meant() -> None:
+    found = units.read_quantity("3600 Nm3/h", KINDS["VolumeFlow"], "volume_flow_normal")
+    assert found == pytest.approx(1.0)
+    limit = units.read_quantity("10 mg/Nm3", KINDS["Concentration"], "emission_limit")
+    assert limit == pytest.approx(1e-5)
+
+
+def test_an_explosion_constant_without_its_point() -> None:
+    assert unit_names.in_base_units("barm/s") == unit_names.in_base_units("bar*m/s")

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.stats import norm
 from tests.sharing.places import ROOT
 
 from granum.core import registry
@@ -483,6 +484,28 @@ def data(key: str) -> Data:
         "laser_diffraction": _laser,
         "particle_counter": _counter,
         "sieve_analysis": _sieves,
+        "gas_adsorption": lambda: Data(
+            {
+                "relative_pressure": np.linspace(0.06, 0.29, 9),
+                "adsorbed_volume": 1e-3
+                * 100.0
+                * np.linspace(0.06, 0.29, 9)
+                / ((1.0 - np.linspace(0.06, 0.29, 9)) * (1.0 + 99.0 * np.linspace(0.06, 0.29, 9))),
+            },
+            {},
+            "adsorbed_volume",
+            0.005,
+        ),
+        "mercury_porosimetry": lambda: Data(
+            {
+                "intrusion_pressure": np.geomspace(1e6, 1e8, 12),
+                "intruded_volume": 5e-4
+                * norm.cdf(np.log(2e-7 * np.geomspace(1e6, 1e8, 12) / 1.4708) / np.log(1.8)),
+            },
+            {"solid_density": 2650.0},
+            "intruded_volume",
+            0.01,
+        ),
         "permeametry": lambda: Data(
             {
                 "superficial_velocity": np.linspace(0.01, 0.2, 10),

@@ -169,7 +169,7 @@ def _known(unit: Any, p: Parameter) -> str:
 def _others(thing: Any, given: dict[str, Any], found: Curve, units: tuple[str, str]) -> list[dict[str, Any]]:
     """What other laws give, as thin lines of a chart."""
     against, output = found.against, found.output
-    resolved = Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0]
+    resolved = Binder.of(thing.card.key, thing.card.parameters).resolved((), given)[0]
     across, upward = found.units(units)
     assert against.kind is not None  # as what a curve runs over
     x = from_si(found.x, across, against.kind)

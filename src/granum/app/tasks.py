@@ -136,7 +136,7 @@ def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The same inputs by other laws."""
     thing = evaluable(payload["key"], ("formula",))
     given = split(thing.card, inputs_for(thing.card, payload["inputs"]))[0]
-    return packed(spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0]))
+    return packed(spread(thing, Binder.of(thing.card.key, thing.card.parameters).resolved((), given)[0]))
 
 
 def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:

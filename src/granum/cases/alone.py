@@ -25,6 +25,7 @@ from granum.core import registry
 from granum.core.documents import table_in
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.core.stand_ins import stands_for
 from granum.flowsheet.run import Line
 from granum.streams.feeding import PHASES
 
@@ -101,7 +102,11 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
     """One word put where it belongs."""
     head, dot, rest = word.partition(".")
     feeds = found["feeds"]
-    if head in {p.name for p in thing.card.parameters}:
+    wanted = stands_for(word, {p.name for p in thing.card.parameters})
+    if wanted is not None:  # a diameter in place of the radius that the example has
+        own.pop(wanted, None)
+        put(own, word, value)
+    elif head in {p.name for p in thing.card.parameters}:
         if value == "" and not dot:
             own.pop(head, None)
         else:

@@ -101,6 +101,7 @@ def _complaint(shape: type[Shape], name: str, problem: ValidationError) -> str:
                     str(first["loc"][-1]),
                     owner,
                     _("in [{place}]").format(place=".".join(map(str, first["loc"][:-1])) or name),
+                    meant="liquids" if first["loc"] == ("mixture", "solutes") else None,
                 ).message
             )
     if first["type"] == "missing":

@@ -17,8 +17,8 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.kinds import KINDS
 from granum.core.parameters import REQUIRED, Parameter
+from granum.core.stand_ins import StandIns
 
 
 def is_tracer(value: Any) -> bool:
@@ -63,6 +63,22 @@ def _forgotten_unit(value: float, parameter: Parameter, where: str) -> InputErro
     return InputError(message, name=parameter.name, value=value)
 
 
+_DENSE = {"particle_density", "solid_density", "liquid_density", "crystal_density"}
+_LIGHTEST = 25.0  # kg/m³; what is typed without a unit below it was meant in g/cm³ or relative to water
+
+
+def _not_a_specific_gravity(text: str, parameter: Parameter, where: str) -> None:
+    """Refuses a density that was typed without a unit and is that of a gas."""
+    found = units.read_number(text)
+    if found is None or not 0.0 < found[0] < _LIGHTEST:
+        return
+    message = _(
+        "{label} ('{name}') = {value} kg/m³ is that of no solid or liquid{where}: a number without a unit is "
+        "read in kg/m³. Did you mean {value} g/cm³?"
+    ).format(label=parameter.label, name=parameter.name, value=units.format_number(found[0]), where=where)
+    raise InputError(message, name=parameter.name, value=found[0])
+
+
 def convert(value: Any, parameter: Parameter, where: str = "", several: bool = False) -> Any:
     """Whatever a user passes for a parameter as what the function body takes; raises one clear error
     otherwise.
@@ -88,6 +104,8 @@ def convert(value: Any, parameter: Parameter, where: str = "", several: bool = F
     kind, coldest = parameter.kind, parameter.coldest
     bare = not given.is_quantity(value) and not (isinstance(value, str) and units.has_unit(value))
     if isinstance(value, str):
+        if bare and parameter.name in _DENSE:
+            _not_a_specific_gravity(value, parameter, where)
         read = (
             units.read_series if parameter.series else units.read_values if several else units.read_quantity
         )
@@ -295,16 +313,6 @@ def law_of(family: str, name: str, where: str = "", options: Mapping[str, Any] |
     return FormulaWith(found, tuple(fixed.items()), tuple(numbers), tuple(numbers.values()))
 
 
-_KINEMATIC = KINDS["KinematicViscosity"]
-_DYNAMIC = KINDS["DynamicViscosity"]
-_DENSITIES = ("fluid_density", "liquid_density", "gas_density")
-
-
-def _is_kinematic(viscosity: str) -> bool:
-    """Whether it has such a unit; ordinary dynamic ones are known without reading units at length."""
-    return not units.in_unit_of(viscosity, _DYNAMIC.unit) and units.in_unit_of(viscosity, _KINEMATIC.unit)
-
-
 @dataclass(frozen=True)
 class Binder:
     """Matches positional and named arguments to parameters, with near-miss suggestions for unknown names."""
@@ -318,63 +326,40 @@ class Binder:
         """A binder for the card named ``owner``."""
         return Binder(owner, parameters, {p.name: i for i, p in enumerate(parameters)})
 
-    def with_fluid(
+    def resolved(
         self, args: tuple[Any, ...], kwargs: Mapping[str, Any]
     ) -> tuple[Mapping[str, Any], dict[str, str]]:
-        """The arguments with the properties of a ``fluid`` in its place, and what each of these says of its
-        origin; explicit values win.
+        """The arguments with what stands for others in their place (the properties of a ``fluid``, a velocity
+        for a mass flux), and what each of these says of its origin; explicit values win over a fluid's.
         """
-        if "fluid" not in kwargs or "fluid" in self.index:
-            return self._with_kinematic(args, kwargs, kwargs, {})
-        # the core knows no materials; whoever names one has them
-        stated = import_module("granum.materials.stated")
-        rest = {name: value for name, value in kwargs.items() if name != "fluid"}
-        found, origin = stated.properties(kwargs["fluid"], self.owner, self.parameters[len(args) :], rest)
-        origins: dict[str, str] = dict.fromkeys(found, str(origin))
-        return self._with_kinematic(args, kwargs, {**rest, **found}, origins)
+        values, origins = dict(kwargs), dict[str, str]()
+        if "fluid" in kwargs and "fluid" not in self.index:
+            # the core knows no materials; whoever names one has them
+            stated = import_module("granum.materials.stated")
+            del values["fluid"]
+            asked = self.parameters[len(args) :]
+            found, origin = stated.properties(kwargs["fluid"], self.owner, asked, values)
+            if "kinematic_viscosity" in values and "kinematic_viscosity" not in self.index:
+                found.pop("dynamic_viscosity", None)
+            values |= found
+            origins = dict.fromkeys(found, str(origin))
 
-    def _with_kinematic(
-        self,
-        args: tuple[Any, ...],
-        typed: Mapping[str, Any],
-        values: Mapping[str, Any],
-        origins: dict[str, str],
-    ) -> tuple[Mapping[str, Any], dict[str, str]]:
-        """The values with a dynamic viscosity in place of a kinematic one, ``kinematic_viscosity`` or a
-        ``dynamic_viscosity`` written in such a unit (500 cSt), by the density among them.
-        """
-        wanted, name = "dynamic_viscosity", "kinematic_viscosity"
-        if wanted not in self.index or name in self.index or self.index[wanted] < len(args):
-            return values, origins
-        if name in typed:
-            given_as = typed[name]
-            if wanted in typed:
-                message = _("'{name}' was given twice for {owner}.")
-                raise InputError(message.format(name=wanted, owner=self.owner), name=name)
-        elif isinstance(typed.get(wanted), str) and _is_kinematic(typed[wanted]):
-            given_as = typed[wanted]
-        else:
-            return values, origins
-        density = next((n for n in _DENSITIES if n in self.index), None)
-        if density is None:
-            message = _(
-                "{owner} asks for no density: give 'dynamic_viscosity', which is density times '{name}'."
+        def value_of(name: str) -> Any:
+            place = self.index[name]
+            known = args[place] if place < len(args) else values.get(name, self.parameters[place].default)
+            return (
+                None
+                if known is REQUIRED or known is None
+                else convert(known, self.parameters[place], "", True)
             )
-            raise InputError(message.format(owner=self.owner, name=name), name=name)
-        place = self.index[density]
-        known = args[place] if place < len(args) else values.get(density, self.parameters[place].default)
-        if known is REQUIRED or known is None:
-            message = _("'{name}' needs '{density}' beside it: the dynamic viscosity is their product.")
-            raise InputError(message.format(name=name, density=density), name=density)
-        if isinstance(given_as, str):
-            kinematic = units.read_quantity(given_as, _KINEMATIC, name)
-        elif given.is_quantity(given_as):
-            kinematic = units.quantity_to_si(given_as, _KINEMATIC, name)
-        else:
-            kinematic = given_as
-        product = kinematic * convert(known, self.parameters[place], several=True)
-        rest = {n: v for n, v in values.items() if n != name}
-        return {**rest, wanted: product}, {**origins, wanted: _("kinematic viscosity times density")}
+
+        standing = StandIns(self.owner, self.index, len(args), values, value_of, origins)
+        standing.settle()
+        return standing.values, standing.origins
+
+    def stands_in(self, kwargs: Mapping[str, Any]) -> bool:
+        """Whether something may stand for another: a name that no input has, or a viscosity with its unit."""
+        return not kwargs.keys() <= self.index.keys() or isinstance(kwargs.get("dynamic_viscosity"), str)
 
     def left_out(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> frozenset[str]:
         """Names that were not given and have a default other than nothing."""
@@ -419,7 +404,7 @@ class Binder:
     def bind(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> dict[str, Any]:
         """Converted values by name."""
         where = _(" for {owner}").format(owner=self.owner)
-        given, _origins = self.with_fluid(args, kwargs)
+        given, _origins = self.resolved(args, kwargs)
         return {
             p.name: convert(value, p, where)
             for p, value in zip(self.parameters, self.arrange(args, given), strict=True)

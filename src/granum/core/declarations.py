@@ -114,7 +114,7 @@ def _declare(
     def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
         if not binder:
             binder.append(Binder.of(cls.card.key, cls.card.parameters))  # type: ignore[attr-defined]
-        given, origins = binder[0].with_fluid(args, kwargs)
+        given, origins = binder[0].resolved(args, kwargs)
         original(self, **binder[0].bind(args, given))
         if origins and sort == "lab test":
             object.__setattr__(self, "origins", tuple(origins.items()))
@@ -166,7 +166,7 @@ def _evaluate(cls: Any, /, **inputs: Any) -> Result:
     """
     card = replace(cls.card, parameters=tuple(cls.card.inputs.values()), arguments=())
     binder = Binder.of(card.key, card.parameters)
-    given, origins = binder.with_fluid((), inputs)
+    given, origins = binder.resolved((), inputs)
     where = _(" for {owner}").format(owner=card.key)
     rows = zip(card.parameters, binder.arrange((), given), strict=True)
     values = {p.name: convert(value, p, where, several=p in cls.card.arguments) for p, value in rows}

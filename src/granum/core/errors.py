@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from granum.core.i18n import _
 
 _MOST_TOLD = 6  # problems told at once
+_MOST_NAMES = 40  # names listed where none is like the one given
 _LONGEST_NAME = 100  # characters; what is longer is no misspelt name
 
 
@@ -72,20 +73,29 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
 
 
 def unknown_name(
-    what: str, name: str, known: Iterable[str], where: str = "", *, quantities: bool = True
+    what: str,
+    name: str,
+    known: Iterable[str],
+    where: str = "",
+    *,
+    quantities: bool = True,
+    meant: str | None = None,
 ) -> InputError:
     """The one error for a name that does not exist: it lists or suggests those that do. Names that are not
     ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name.
+    ``meant`` is the known one where that is certain.
     """
     known = sorted(known)
-    close = nearest(name, known)
+    close = meant or nearest(name, known)
     name = name if len(name) <= _LONGEST_NAME else name[:_LONGEST_NAME] + "…"
     place = f" {where.strip()}" if where else ""
     message = _("{what} '{name}' is not known{place}.").format(what=what, name=name, place=place)
     if close:
         message += " " + _("Did you mean '{close}'?").format(close=close)
     elif known:
-        shown = ", ".join(known[:12]) + (" …" if len(known) > 12 else "")
+        shown = ", ".join(known[:_MOST_NAMES])
+        if len(known) > _MOST_NAMES:
+            shown += " " + _("… and {count} more").format(count=len(known) - _MOST_NAMES)
         message += " " + _("Known names: {names}.").format(names=shown)
     return InputError(message, name=name, did_you_mean=close, as_it_is=None if quantities else True)
 

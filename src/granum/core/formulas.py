@@ -387,8 +387,8 @@ class Formula(Generic[P, R]):
     def __call__(self, *args: Any, fluid: Any, **kwargs: Any) -> R: ...
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        if _BY_FLUID.intersection(kwargs) or isinstance(kwargs.get("dynamic_viscosity"), str):
-            kwargs = dict(self._binder.with_fluid(args, kwargs)[0])
+        if self._binder.stands_in(kwargs):
+            kwargs = dict(self._binder.resolved(args, kwargs)[0])
         nested = flags.nested()
         heard = flags.listening()
         if not args and not nested and not heard and _steps.get() is None:
@@ -427,7 +427,7 @@ class Formula(Generic[P, R]):
 
     def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its flags and card."""
-        kwargs, origins = self._binder.with_fluid(args, kwargs)  # type: ignore[assignment]
+        kwargs, origins = self._binder.resolved(args, kwargs)  # type: ignore[assignment]
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
             raise InputError(
@@ -468,7 +468,6 @@ class Formula(Generic[P, R]):
 
 Formula.__doc__ = CompletedDoc(Formula.__doc__, of_instances=True)  # type: ignore[assignment]
 
-_BY_FLUID = {"fluid", "kinematic_viscosity"}  # names of inputs that stand for others
 _DYNAMIC = type("_Dynamic", (), {"__repr__": lambda self: "dynamic"})()
 
 

@@ -81,7 +81,7 @@ class Procedure(Generic[P, R]):
 
     def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its card (a procedure reports problems by raising, so there are no flags)."""
-        given, origins = self._binder.with_fluid(args, kwargs)
+        given, origins = self._binder.resolved(args, kwargs)
         inputs = self._binder.bind(args, given)
         left = self._binder.left_out(args, given)
         return Result(

@@ -72,7 +72,7 @@ def _registry() -> Any:
         "stpd = short_ton / day = STPD",
         "stph = short_ton / hour = STPH",
         "@alias rpm = RPM",
-        "USD = [currency] = dollar",
+        "USD = [currency] = dollar = $",
     ):
         ureg.define(line)
     return ureg
@@ -125,7 +125,7 @@ _SPELLINGS = {
     "sq ft": "ft^2",
     "sqft": "ft^2",
     "kft3": "kcf",
-    "ft-lb": "ft*lb",
+    "barm/s": "bar*m/s",
     "m2K": "m2*K",
     "m²K": "m2*K",
     "kgK": "kg*K",
@@ -147,6 +147,10 @@ ELSE = {
     "ch": "metric_horsepower",
     "PS": "metric_horsepower",
 }
+# volumes of gas as if it were at some standard state
+_STANDARD_GAS = re.compile(
+    r"\bN\s?m\s?\^?3|\bSm\^?3|\b[NS][lL](?:pm)?\b|\bs(?:lp|cc)m\b|\b(?i:MM?)?(?i:scf[mhd]?)\b"
+)
 # read so only where a temperature is due
 DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}
 
@@ -175,7 +179,18 @@ def parse_unit(text: str) -> Any:
             ).format(unit=text),
             unit=text,
         )
+    if _STANDARD_GAS.search(spelled):
+        raise UnitError(
+            _(
+                "Unit '{unit}' is a volume of gas as it would be in a standard state, which says its amount: "
+                "give the volume at the temperature and pressure that the gas has (0 °C and 1 atm for Nm3, "
+                "60 °F and 14.7 psi for most scf), or its mass."
+            ).format(unit=text),
+            unit=text,
+        )
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
+    spelled = re.sub(r"\b([kM]?N)m\b", r"\1*m", spelled)  # or else a nautical mile
+    spelled = re.sub(r"\b(ft|in|lbf?)-(ft|in|lbf?)\b", r"\1*\2", spelled)
     # gal/1000 ft3, lb per 1000 gal
     spelled = re.sub(
         r"\s*(?:/|\bper\b)\s*\(?\s*1000\s*([A-Za-z]+[23]?(?:\^[23])?)\s*\)?$", r"/\1*permille", spelled

@@ -40,9 +40,12 @@ def affine_by_pint(unit: str, kind_unit: str) -> tuple[float, float]:
         factors = re.split(r"[\s*.·/()-]+", re.sub("°|deg(?=[CF])", " ", below))
         readings = (
             f"{above}/({'*'.join(DEGREES.get(f, f) for f in factors if f)})",
-            re.sub(r"\b(lb|kg)\b", r"\1f", unit),
+            re.sub(r"\b(lb|kg)\b", r"\1f", unit, count=1),
         )
-        meant = [text for text in readings if below and text != unit and fits(text, kind_unit)]
+        product = below or re.search(
+            r"[A-Za-z]\s*[-*·. ]\s*[A-Za-z]", unit
+        )  # ft-lb, kg m: a force over a length
+        meant = [text for text in readings if product and text != unit and fits(text, kind_unit)]
         other = re.sub(r"[A-Za-z]+", lambda word: ELSE.get(word[0], word[0]), unit)
         meant += [other] if other != unit and fits(other, kind_unit) else []
         if not meant:
@@ -101,6 +104,8 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
     293.15
     """
     label = name or kind.name
+    if name.endswith("_normal") or name.startswith("emission_"):  # of gas at 0 °C and 1 atm: Nm3/h, mg/Nm3
+        unit = re.sub(r"\bN\s?(?=m\s?(\^?3|³))", "", unit)
     if kind.unit == "delta_degC" and unit.strip() in ("degC", "°C", "K"):
         return value
     try:

@@ -41,6 +41,8 @@ def read_number(text: str) -> tuple[float, str] | None:
     >>> read_number("0,8 bar"), read_number("1 200,5 kg/h"), read_number("1,200.5"), read_number("1 1/8 in")
     ((0.8, 'bar'), (1200.5, 'kg/h'), (1200.5, ''), (1.125, 'in'))
     """
+    if text.lstrip().startswith("$"):  # $10,000: its writer sets thousands apart by commas
+        text = re.sub(r"(?<=\d),(?=\d{3})", "", text.lstrip()[1:]) + " USD"
     found = _NUMBER.fullmatch(tidy(text)) if len(text) <= LONGEST else None
     if found is None or re.match(r"(?!1\s*/)[±\d;,]", found[2]):  # "5 1 um", "5±1 um", "5; 1"
         return None

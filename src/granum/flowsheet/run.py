@@ -315,8 +315,9 @@ class Run:
 
     @cached_property
     def product(self) -> str:
-        """Name of the main product: the stream leaving with most solid; without solid that with most of what
-        is dissolved, of those that a unit calls its product if there are any, then of liquid, then of mass.
+        """Name of the main product: the stream leaving with most solid times its share of solid; without
+        solid that with most of what is dissolved, of those that a unit calls its product if there are any,
+        then of liquid, then of mass.
         """
         place = compiled(main_product)(*as_arrays((self.sheet, self.streams)))
         return self.sheet.products[int(place)]

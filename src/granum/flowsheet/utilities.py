@@ -175,8 +175,8 @@ def totals(
 def streams_by_product(
     line: Flowsheet, streams: Mapping[str, Stream], figure: Callable[[Stream], Any]
 ) -> Any:
-    """A figure of the main product: the stream leaving the line with most solid; where none has any, with
-    most of what is dissolved, else with most liquid, else with most mass.
+    """A figure of the main product: the stream leaving the line with most solid times its share of solid;
+    where none has any, with most of what is dissolved, else with most liquid, else with most mass.
     """
     return jnp.stack([figure(streams[name]) for name in line.products])[main_product(line, streams)]
 
@@ -184,8 +184,9 @@ def streams_by_product(
 def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
     """Which of the line's products is the main one, by its place among them; may be traced.
 
-    The one with most solid; without solids that with most beside the solvent, of those that a unit calls its
-    product if there are any: a melt is purified by leaving what is beside it.
+    The one with most solid times its share of solid, so that a cake comes before the water that has more
+    solid in it; without solids that with most beside the solvent, of those that a unit calls its product if
+    there are any: a melt is purified by leaving what is beside it.
     """
     leaving = [streams[name] for name in line.products]
     solid, mass = (jnp.stack([getattr(s, n) for s in leaving]) for n in ("solid_flow", "mass_flow"))
@@ -197,8 +198,8 @@ def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
     called = np.array([line.link(name).origin.endswith(".product") for name in line.products])
     dissolved = jnp.where(called, dissolved, 0.0) if called.any() else dissolved
     worth = mass
-    for matter in (whole, dissolved, solid):
-        worth = jnp.where(jnp.sum(matter) > trace, matter, worth)
+    for matter, share in ((whole, 1.0), (dissolved, 1.0), (solid, safe_divide(solid, mass))):
+        worth = jnp.where(jnp.sum(matter) > trace, matter * share, worth)
     return jnp.argmax(worth)
 
 

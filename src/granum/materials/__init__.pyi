@@ -63,6 +63,10 @@ from granum.materials.formulas.gases import (
     nitrogen_heat_capacity as nitrogen_heat_capacity,
     nitrogen_viscosity as nitrogen_viscosity,
 )
+from granum.materials.formulas.glycerol import (
+    dynamic_viscosity_glycerol_water as dynamic_viscosity_glycerol_water,
+    glycerol_viscosity as glycerol_viscosity,
+)
 from granum.materials.formulas.ice import (
     ice_melting_pressure as ice_melting_pressure,
     ice_vapor_pressure as ice_vapor_pressure,
@@ -88,6 +92,13 @@ from granum.materials.formulas.properties import (
     solubility as solubility,
     solution_properties as solution_properties,
     vapor_in_gas as vapor_in_gas,
+)
+from granum.materials.formulas.seawater import (
+    seawater_conductivity as seawater_conductivity,
+    seawater_density as seawater_density,
+    seawater_heat_capacity as seawater_heat_capacity,
+    seawater_vapor_pressure as seawater_vapor_pressure,
+    seawater_viscosity as seawater_viscosity,
 )
 from granum.materials.formulas.solutions import (
     dynamic_viscosity_laliberte as dynamic_viscosity_laliberte,

@@ -13,7 +13,7 @@ useful solid::
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -136,6 +136,15 @@ class Library:
             if found is not None:
                 return found
         raise unknown_name(_(_SORTS[sort]), name, known)
+
+    def called(self, name: str, *sorts: str) -> str | None:
+        """What the library calls a material, by the first of the ``sorts`` that knows it; None where none
+        does.
+        """
+        for sort in sorts:
+            with suppress(InputError):
+                return self.entry(sort, name)[0]
+        return None
 
     def _by_crystal(self, known: dict[str, Any], word: str) -> Any:
         """The system that a crystal, such as a hydrate, comes from."""

@@ -104,6 +104,10 @@ from granum.particles.formulas.forces import (
     drag_force as drag_force,
     measured_drag_coefficient as measured_drag_coefficient,
 )
+from granum.particles.formulas.gas_adsorption import (
+    adsorbed_volume_bet as adsorbed_volume_bet,
+    specific_surface_mass_bet as specific_surface_mass_bet,
+)
 from granum.particles.formulas.hindered import (
     RichardsonZaki as RichardsonZaki,
     hindered_velocity as hindered_velocity,
@@ -149,6 +153,13 @@ from granum.particles.formulas.non_newtonian import (
 )
 from granum.particles.formulas.numbers import (
     reynolds_number as reynolds_number,
+)
+from granum.particles.formulas.sampling import (
+    composition_deviation_random as composition_deviation_random,
+    mineral_factor_gy as mineral_factor_gy,
+    mixing_index_lacey as mixing_index_lacey,
+    sample_mass_gy as sample_mass_gy,
+    sampling_error_gy as sampling_error_gy,
 )
 from granum.particles.formulas.sedimentation import (
     SedimentationSizes as SedimentationSizes,
@@ -260,6 +271,9 @@ from granum.particles.in_class import (
     PowerDensity as PowerDensity,
     ShiftedDensity as ShiftedDensity,
     UniformDensity as UniformDensity,
+)
+from granum.particles.lab_tests.gas_adsorption import (
+    GasAdsorption as GasAdsorption,
 )
 from granum.particles.lab_tests.instruments import (
     ImageAnalysis as ImageAnalysis,

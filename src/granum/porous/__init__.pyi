@@ -71,6 +71,9 @@ from granum.porous.formulas.packed_beds_modern import (
     pressure_gradient_nemec_levec as pressure_gradient_nemec_levec,
     pressure_gradient_tallmadge as pressure_gradient_tallmadge,
 )
+from granum.porous.formulas.porosimetry import (
+    pore_diameter_washburn as pore_diameter_washburn,
+)
 from granum.porous.formulas.porosity import (
     void_fraction_benyahia_oneill as void_fraction_benyahia_oneill,
     void_fraction_dixon as void_fraction_dixon,
@@ -78,4 +81,7 @@ from granum.porous.formulas.porosity import (
 )
 from granum.porous.lab_tests.permeametry import (
     Permeametry as Permeametry,
+)
+from granum.porous.lab_tests.porosimetry import (
+    MercuryPorosimetry as MercuryPorosimetry,
 )

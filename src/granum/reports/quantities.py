@@ -156,7 +156,8 @@ def _kind_in(unit: str) -> Kind | None:
     """What is measured in an SI unit, with the units of every kind that is; None when that says too
     little.
     """
-    found = [k for k in KINDS.values() if k.unit == unit]
+    # no limit and no estimate is an area of molecules
+    found = [k for k in KINDS.values() if k.unit == unit and k.name != "molecular area"]
     if not found or unit in AMBIGUOUS:
         return None
     return replace(found[0], display=tuple(dict.fromkeys(u for k in found for u in k.display)))
@@ -341,7 +342,11 @@ class CheckRow(NamedTuple):
 
 def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> CheckRow:
     """A check as people read it; in the unit of the figure it looks at, where it is one of ``figures``."""
-    value, low, high = float(check.value), _ruled(float(check.low)), _ruled(float(check.high))
+    value, low, high = (
+        float(check.value),
+        _ruled(float(check.low), check.unit),
+        _ruled(float(check.high), check.unit),
+    )
     looked_at = next(((p, x) for p, x in figures if _same_quantity(p, x, check)), None)
     if looked_at is None or looked_at[0].kind is None:
         tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
@@ -383,8 +388,8 @@ def _allowed(limit: Limit, card: Card) -> str:
         if isinstance(end, str)
     ]
     low, high = (
-        -math.inf if isinstance(limit.low, str) else _ruled(limit.low),
-        math.inf if isinstance(limit.high, str) else _ruled(limit.high),
+        -math.inf if isinstance(limit.low, str) else _ruled(limit.low, limit.unit),
+        math.inf if isinstance(limit.high, str) else _ruled(limit.high, limit.unit),
     )
     if math.isfinite(low) or math.isfinite(high):
         tail, (low, high) = _shown(limit.unit, _end(low, high), low, high)
@@ -392,9 +397,9 @@ def _allowed(limit: Limit, card: Card) -> str:
     return ", ".join(words)
 
 
-def _ruled(end: float) -> float:
-    """An end of a limit without what it leaves to the rounding of a calculation."""
-    return 0.0 if abs(end) <= ROUNDING else end
+def _ruled(end: float, unit: str) -> float:
+    """An end of a limit without what it leaves to the rounding of a calculation; 1e-16 m² is no rounding."""
+    return 0.0 if -ROUNDING <= end <= (ROUNDING if unit == "dimensionless" else 0.0) else end
 
 
 def _end(low: float, high: float) -> float:

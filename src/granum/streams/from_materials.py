@@ -119,7 +119,8 @@ def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[fl
 
 def _liquid(known: Library, name: str) -> Species:
     if name not in known.names("fluid"):
-        raise unknown_name(_("Liquid"), name, (*known.names("fluid"), *known.names("solute")))
+        there = (*known.names("fluid"), *known.names("solute"))
+        raise unknown_name(_("Liquid"), name, there, meant=known.called(name, "solute", "fluid"))
     f = known.fluid(name)
     return Species(
         f.name,

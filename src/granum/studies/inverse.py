@@ -101,7 +101,7 @@ def _asked(
     output = results[wanted[0]]
     value = float(convert(given[output.name], output))
     others = {n: v for n, v in given.items() if n not in (output.name, name)}
-    inputs = dict(Binder.of(card.key, card.parameters).with_fluid((), others)[0])
+    inputs = dict(Binder.of(card.key, card.parameters).resolved((), others)[0])
     inputs.pop(name, None)  # which a fluid may have given
     return p, output, value, inputs
 

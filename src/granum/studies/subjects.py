@@ -337,7 +337,7 @@ class FormulaSubject(Subject):
             )
         known = thing.card.inputs
         where = _("for {owner}").format(owner=thing.card.key)
-        fixed = Binder.of(thing.card.key, tuple(known.values())).with_fluid((), fixed)[0]
+        fixed = Binder.of(thing.card.key, tuple(known.values())).resolved((), fixed)[0]
         for name in fixed:
             if name not in known:
                 raise unknown_name(_("Input"), name, known, where)

@@ -16,7 +16,7 @@ from granum.core.kinds import (
     Fraction,
     Frequency,
     Length,
-    PositiveNumber,
+    NumberPerArea,
     Speed,
     VoidFraction,
 )
@@ -117,7 +117,7 @@ def bubble_diameter_mori_wen(
     minimum_fluidization_velocity: Speed,
     height: Distance,
     diameter: Length,
-    orifices_per_area: PositiveNumber | None = None,
+    orifices_per_area: NumberPerArea | None = None,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Length:
     """Bubble diameter at a height above the distributor by Mori and Wen, growing from the plate to the

@@ -1,0 +1,142 @@
+"""What people state in place of an input: a kinematic viscosity, a mass flux, the diameter of what a card
+knows by its radius, a standard design for its lengths.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Container, Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any, NoReturn
+
+from granum.core import given, units
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import KINDS
+
+_DENSITIES = ("fluid_density", "liquid_density", "gas_density")
+_DYNAMIC, _KINEMATIC = KINDS["DynamicViscosity"], KINDS["KinematicViscosity"]
+
+
+def _is_kinematic(viscosity: Any) -> bool:
+    """Whether it has such a unit; ordinary dynamic ones are known without reading units at length."""
+    return (
+        isinstance(viscosity, str)
+        and not units.in_unit_of(viscosity, _DYNAMIC.unit)
+        and units.in_unit_of(viscosity, _KINEMATIC.unit)
+    )
+
+
+def _number(value: Any, kind: Any, name: str) -> Any:
+    if isinstance(value, str):
+        return units.read_values(value, kind, name)
+    return units.quantity_to_si(value, kind, name) if given.is_quantity(value) else value
+
+
+_BY_DENSITY = {  # name: the input it stands for, its kind, the power of the density
+    "kinematic_viscosity": ("dynamic_viscosity", _KINEMATIC, 1),
+    "mass_flux": ("superficial_velocity", KINDS["MassFlux"], -1),
+}
+
+
+_BY_DIAMETER = {"mass_flow": "mass_flux", "volume_flow": "superficial_velocity"}  # over the cross-section
+
+
+def stands_for(name: str, known: Container[str]) -> str | None:
+    """The input that a name stands for; the first of several.
+
+    >>> stands_for("bowl_diameter", ["bowl_radius", "bowl_length"])
+    'bowl_radius'
+    """
+    if name in known:
+        return None
+    if name == "standard":
+        lengths = ("inlet_height", "finder_length", "diameter")
+        return lengths[0] if all(length in known for length in lengths) else None
+    if name == "diameter" and "area" in known and "underflow_concentration" in known:
+        return "area"  # of a round thickener
+    if name in _BY_DIAMETER:
+        return _BY_DIAMETER[name] if _BY_DIAMETER[name] in known and "diameter" in known else None
+    wanted = _BY_DENSITY[name][0] if name in _BY_DENSITY else name.replace("diameter", "radius")
+    return wanted if wanted in known else None
+
+
+@dataclass
+class StandIns:
+    """The ``values`` of one call of ``owner``, whose inputs are the ``known``, while what stands for an input
+    is put in its place. ``value_of`` reads an input, given or by default, or says that there is none.
+    """
+
+    owner: str
+    known: Mapping[str, int]
+    given_by_place: int
+    values: dict[str, Any]
+    value_of: Callable[[str], Any]
+    origins: dict[str, str] = field(default_factory=dict)
+
+    def settle(self) -> None:
+        """Put all in place."""
+        if _is_kinematic(self.values.get("dynamic_viscosity")) and "kinematic_viscosity" not in self.known:
+            if "kinematic_viscosity" in self.values:
+                self._twice("dynamic_viscosity", "kinematic_viscosity")
+            self.values["kinematic_viscosity"] = self.values.pop("dynamic_viscosity")
+        for name in list(self.values):
+            wanted = stands_for(name, self.known)
+            if wanted is None:
+                continue
+            if name == "standard":
+                self._standard_cyclone()
+            elif name in _BY_DENSITY:
+                self._by_density(name, wanted)
+            elif name in _BY_DIAMETER:
+                kind = KINDS["MassFlow" if name == "mass_flow" else "VolumeFlow"]
+                section = math.pi / 4.0 * self._needed(name, "diameter") ** 2
+                flow = _number(self.values[name], kind, name)
+                self._put(name, wanted, flow / section, _("flow over the cross-section of the diameter"))
+            elif wanted == "area":
+                across = _number(self.values[name], KINDS["Length"], name)
+                self._put(name, wanted, math.pi / 4.0 * across**2, _("circle of the diameter"))
+            else:
+                across = _number(self.values[name], KINDS["Length"], name)
+                self._put(name, wanted, across / 2.0, _("half the diameter"))
+
+    def _put(self, name: str, wanted: str, value: Any, origin: str) -> None:
+        if wanted in self.values or self.known[wanted] < self.given_by_place:
+            self._twice(wanted, name)
+        self.values.pop(name, None)
+        self.values[wanted] = value
+        self.origins[wanted] = origin
+
+    def _twice(self, wanted: str, name: str) -> NoReturn:
+        message = _("'{name}' was given twice for {owner}.")
+        raise InputError(message.format(name=wanted, owner=self.owner), name=name)
+
+    def _by_density(self, name: str, wanted: str) -> None:
+        """``wanted`` as ``name`` times the density, or over it, by the density among the inputs."""
+        kind, power = _BY_DENSITY[name][1:]
+        origin = _("kinematic viscosity times density") if power > 0 else _("mass flux over density")
+        density = next((n for n in _DENSITIES if n in self.known), None)
+        if density is None:
+            message = _("{owner} asks for no density: give '{wanted}' in place of '{name}'.")
+            raise InputError(message.format(owner=self.owner, wanted=wanted, name=name), name=name)
+        by = self._needed(name, density)
+        self._put(name, wanted, _number(self.values[name], kind, name) * by**power, origin)
+
+    def _needed(self, name: str, other: str) -> Any:
+        value = self.value_of(other)
+        if value is None:
+            message = _("'{name}' needs '{other}' beside it.")
+            raise InputError(message.format(name=name, other=other), name=other)
+        return value
+
+    def _standard_cyclone(self) -> None:
+        """The lengths of a standard design for the body diameter; what is given besides wins."""
+        # the core knows no cyclones; whoever names a design has them
+        geometry = import_module("granum.cyclones.geometry")
+        shape = geometry.StandardCyclone(self.values.pop("standard"))
+        lengths = shape(self._needed("standard", "diameter"))._asdict()
+        for name, length in lengths.items():
+            if name in self.known and name not in self.values and self.known[name] >= self.given_by_place:
+                self.values[name] = length
+                self.origins[name] = _("standard design {name}").format(name=shape.standard.replace("_", " "))

@@ -1,0 +1,61 @@
+"""What people state in place of an input."""
+
+import numpy as np
+import pytest
+
+from granum.cases.alone import tables
+from granum.centrifuges import centrifugal_effect
+from granum.conveying import deposition_velocity_durand, saltation_velocity_rizk
+from granum.core.errors import InputError
+from granum.cyclones import cyclone_efficiency_lapple
+from granum.cyclones.geometry import StandardCyclone
+from granum.porous import pressure_drop_packed_bed
+
+BED = {"length": "2 m", "particle_diameter": "5 mm", "void_fraction": 0.4, "dynamic_viscosity": "0.018 cP"}
+DUST = {
+    "particle_density": 2000,
+    "fluid_density": 1.2,
+    "dynamic_viscosity": 1.8e-5,
+    "particle_diameter": 1e-5,
+}
+
+
+def test_a_mass_flux_stands_for_a_velocity():
+    right = pressure_drop_packed_bed(superficial_velocity=1.0, fluid_density=1.2, **BED)
+    assert pressure_drop_packed_bed(mass_flux="1.2 kg/m2/s", fluid_density=1.2, **BED) == pytest.approx(right)
+    found = pressure_drop_packed_bed.evaluate(mass_flux=1.2, fluid_density=1.2, **BED)
+    assert "mass flux" in found.origins["superficial_velocity"]
+    with pytest.raises(InputError, match="twice"):
+        pressure_drop_packed_bed(superficial_velocity=1.0, mass_flux=1.2, fluid_density=1.2, **BED)
+    with pytest.raises(InputError, match="fluid_density"):
+        pressure_drop_packed_bed(mass_flux=1.2, **BED)
+
+
+def test_a_diameter_stands_for_a_radius():
+    assert centrifugal_effect(diameter="1 m", rotation_speed="1000 rpm") == centrifugal_effect(
+        radius="50 cm", rotation_speed="1000 rpm"
+    )
+    found = tables("centrifuges.scroll_decanter", {"diameter_outer": "42 cm"})
+    (unit,) = found["units"].values()
+    assert "radius_outer" not in unit
+    assert unit["diameter_outer"] == "42 cm"
+
+
+def test_a_flow_and_a_pipe_stand_for_a_flux():
+    given = {"particle_diameter": "1 mm", "fluid_density": 1.2, "diameter": "78 mm"}
+    right = saltation_velocity_rizk(mass_flux=0.25 / (np.pi / 4.0 * 0.078**2), **given)
+    assert saltation_velocity_rizk(mass_flow="900 kg/h", **given) == pytest.approx(right)
+
+
+def test_a_standard_design_stands_for_its_lengths():
+    shape = StandardCyclone("lapple")(1.0)._asdict()
+    right = cyclone_efficiency_lapple(volume_flow="5000 m3/h", **DUST, **shape)
+    found = cyclone_efficiency_lapple(volume_flow="5000 m3/h", **DUST, diameter="1 m", standard="lapple")
+    assert found == pytest.approx(right)
+    with pytest.raises(InputError, match="stairmand"):
+        cyclone_efficiency_lapple(volume_flow=1.0, **DUST, diameter=1.0, standard="mine")
+
+
+def test_a_specific_gravity_without_a_unit_is_refused():
+    with pytest.raises(InputError, match=r"2\.65 g/cm³"):
+        deposition_velocity_durand(diameter="12 in", particle_density="2.65", liquid_density="1 g/cm3")
