@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import Any, NoReturn
 
 from granum.core import given, units
@@ -40,7 +39,20 @@ _BY_DENSITY = {  # name: the input it stands for, its kind, the power of the den
 }
 
 
+_DESIGNS: dict[tuple[str, ...], Callable[[str], Callable[[Any], Mapping[str, Any]]]] = {}
+
 _BY_DIAMETER = {"mass_flow": "mass_flux", "volume_flow": "superficial_velocity"}  # over the cross-section
+
+
+def designs(lengths: tuple[str, ...], of: Callable[[str], Callable[[Any], Mapping[str, Any]]]) -> None:
+    """Let ``standard``, the name of a design, stand for such lengths beside a ``diameter``; ``of`` makes all
+    lengths from the name and the diameter. Whoever declares inputs with these lengths says so.
+    """
+    _DESIGNS[lengths] = of
+
+
+def _designed(known: Container[str]) -> tuple[str, ...] | None:
+    return next((lengths for lengths in _DESIGNS if all(name in known for name in lengths)), None)
 
 
 def stands_for(name: str, known: Container[str]) -> str | None:
@@ -52,8 +64,8 @@ def stands_for(name: str, known: Container[str]) -> str | None:
     if name in known:
         return None
     if name == "standard":
-        lengths = ("inlet_height", "finder_length", "diameter")
-        return lengths[0] if all(length in known for length in lengths) else None
+        lengths = _designed(known)
+        return lengths[0] if lengths else None
     if name == "diameter" and "area" in known and "underflow_concentration" in known:
         return "area"  # of a round thickener
     if name in _BY_DIAMETER:
@@ -86,7 +98,7 @@ class StandIns:
             if wanted is None:
                 continue
             if name == "standard":
-                self._standard_cyclone()
+                self._standard()
             elif name in _BY_DENSITY:
                 self._by_density(name, wanted)
             elif name in _BY_DIAMETER:
@@ -130,13 +142,11 @@ class StandIns:
             raise InputError(message.format(name=name, other=other), name=other)
         return value
 
-    def _standard_cyclone(self) -> None:
-        """The lengths of a standard design for the body diameter; what is given besides wins."""
-        # the core knows no cyclones; whoever names a design has them
-        geometry = import_module("granum.cyclones.geometry")
-        shape = geometry.StandardCyclone(self.values.pop("standard"))
-        lengths = shape(self._needed("standard", "diameter"))._asdict()
-        for name, length in lengths.items():
+    def _standard(self) -> None:
+        """The lengths of a standard design for the diameter; what is given besides wins."""
+        lengths, named = _designed(self.known), self.values.pop("standard")
+        assert lengths is not None  # ``stands_for`` has found them
+        for name, length in _DESIGNS[lengths](named)(self._needed("standard", "diameter")).items():
             if name in self.known and name not in self.values and self.known[name] >= self.given_by_place:
                 self.values[name] = length
-                self.origins[name] = _("standard design {name}").format(name=shape.standard.replace("_", " "))
+                self.origins[name] = _("standard design {name}").format(name=named.replace("_", " "))

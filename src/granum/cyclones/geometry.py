@@ -16,6 +16,7 @@ from granum.core.datasets import dataset
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Length, PositiveNumber
+from granum.core.stand_ins import designs
 
 STANDARDS = Literal[
     "stairmand_high_efficiency",
@@ -106,6 +107,9 @@ class StandardCyclone(eqx.Module):
     def __call__(self, diameter: Length) -> Dimensions:
         """Lengths for a body diameter."""
         return Dimensions(diameter, *(ratio * diameter for ratio in standard_ratios()[self.standard]))
+
+
+designs(Dimensions._fields, lambda name: lambda diameter: StandardCyclone(name)(diameter)._asdict())  # type: ignore[arg-type]
 
 
 @law("cyclone_geometry", name="free_cyclone", source="hoffmann2008", title="Cyclone of free proportions")
