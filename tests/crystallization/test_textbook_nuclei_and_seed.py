@@ -105,7 +105,7 @@ def test_balance_by_the_name_of_the_solute():
     assert salt.crystal_per_solute == pytest.approx(322.2 / 142.04, rel=1e-3)
     soda = crystallizer_balance_library(10000.0, 0.30, 293.15, 293.15, system="Na2CO3·10H2O")
     assert soda.crystal_flow == pytest.approx(6370, rel=0.02)
-    assert np.isnan(crystallizer_balance_library(1.0, 0.2, 283.15, 300.0, system="sodium oxalate").heat_duty)
+    assert np.isnan(crystallizer_balance_library(1.0, 0.2, 283.15, 300.0, system="borax").heat_duty)
 
 
 def test_charges_of_textbooks():

@@ -259,8 +259,8 @@ def test_enthalpies_close_with_the_heat_of_crystallization() -> None:
     assert float(nitrate.heat_of_crystallization("25 degC")) == pytest.approx(34.89e3 / 0.1011032, rel=1e-6)
     # the slope of the solubility has the sign of the heat: van 't Hoff
     assert float(jax.grad(nitrate.solubility)(313.15)) > 0
-    with pytest.raises(ApplicabilityError, match="oxalate"):
-        m.solute("sodium oxalate").crystal_enthalpy(300.0)
+    with pytest.raises(ApplicabilityError, match="tetraborate tetrahydrate"):
+        m.solute("borax").crystal_enthalpy(300.0, "sodium tetraborate tetrahydrate")
 
 
 def test_saturation_temperature_inverts_the_solubility() -> None:
