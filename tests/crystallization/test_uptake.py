@@ -9,7 +9,7 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.cases import read_text
-from granum.core.errors import CaseError
+from granum.core.errors import CaseError, InputError
 from granum.crystallization.equipment.uptake import ImpurityUptake
 from granum.crystallization.formulas.purity import purity_of_crystals
 from granum.streams.from_materials import mixture_of, taken_up_name
@@ -135,7 +135,7 @@ def test_what_a_dryer_leaves_needs_a_place_that_is_named() -> None:
     line = read_text(
         LINE.replace('"sodium chloride", "sodium chloride in crystals"', '"sodium chloride in crystals"')
     )
-    with pytest.raises(CaseError, match="'sodium chloride' stays where its liquid dries"):
+    with pytest.raises(InputError, match="'sodium chloride' is dissolved in the moisture"):
         line.solve()
 
 

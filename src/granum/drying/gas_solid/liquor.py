@@ -15,6 +15,7 @@ import jax.numpy as jnp
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.numerics import safe_divide
+from granum.streams.from_materials import taken_up_name
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
@@ -53,7 +54,10 @@ def _deposit(mixture: Mixture, liquid: int) -> Deposit:
     same = [i for i, solid in enumerate(mixture.solids) if solid.name == name]
     if same:
         return Deposit(same[0], 0.0)
+    taken_up = {taken_up_name(species.name) for species in mixture.liquids}  # grows within other crystals
     for row, solid in enumerate(mixture.solids):
+        if solid.name in taken_up:
+            continue
         parts = dict(solid.composition)
         held = sum(parts.get(component, 0.0) for component in solute)
         if held > 0.0 and set(parts) <= {*solute, *solvent}:
