@@ -79,7 +79,7 @@ LEAD = {
     "mineral_density": "7.5 g/cm3",
     "gangue_density": "2.65 g/cm3",
 }
-lead = {mm: p.sample_mass_gy(largest_size=f"{mm} mm", **LEAD) for mm in (25, 5, 1)}
+lead = {mm: p.sample_mass_gy(passing_size_95=f"{mm} mm", **LEAD) for mm in (25, 5, 1)}
 mince = p.mixing_index_lacey(0.0068**0.5, component_fraction=0.15, particles_per_sample=50)
 mince_best = p.composition_deviation_random(component_fraction=0.15, particles_per_sample=50)
 

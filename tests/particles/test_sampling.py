@@ -40,12 +40,12 @@ def test_ends_of_the_mixing_index():
 def test_lead_ore_by_the_sheet_of_the_book(top_size, printed):
     # JKTech's sheet to Wills' book (opened): 5 % Pb to 2 % of its value at 95 %, four stages that share the
     # variance, twice the mass of the formula; kg
-    found = sample_mass_gy(sampling_error=0.02 / 1.96 / 2.0, largest_size=top_size, **GALENA)
+    found = sample_mass_gy(sampling_error=0.02 / 1.96 / 2.0, passing_size_95=top_size, **GALENA)
     assert 2.0 * found == pytest.approx(printed, rel=2e-3 if printed > 0.01 else 0.05)
 
 
 def test_mass_and_error_are_one_formula():
-    ore = {"largest_size": "25 mm", "lot_mass": "1 t", **GALENA}
+    ore = {"passing_size_95": "25 mm", "lot_mass": "1 t", **GALENA}
     mass = sample_mass_gy(sampling_error=0.01, **ore)
     assert mass < 178.0  # out of a small lot less is needed
     assert sampling_error_gy(sample_mass=mass, **ore) == pytest.approx(0.01, rel=1e-12)

@@ -88,7 +88,7 @@ _EQUATION = r"s_{FSE}^2 = C\left(\frac1m - \frac1{m_L}\right)" + _FACTORS
 @formula(source="gy1979, ch. 19; wills2016, ch. 3", equation=_EQUATION)
 def sampling_error_gy(
     sample_mass: SampleMass,
-    largest_size: Length,
+    passing_size_95: Length,
     liberation_size: Length,
     mineral_fraction: Share,
     mineral_density: Density,
@@ -107,7 +107,7 @@ def sampling_error_gy(
     >>> round(
     ...     sampling_error_gy(
     ...         sample_mass="178.3 kg",
-    ...         largest_size="25 mm",
+    ...         passing_size_95="25 mm",
     ...         liberation_size="150 um",
     ...         mineral_fraction=0.05 / 0.866,
     ...         mineral_density=7500,
@@ -118,7 +118,7 @@ def sampling_error_gy(
     0.01
     """
     C = _constant(
-        largest_size, liberation_size, mineral_fraction, mineral_density, gangue_density,
+        passing_size_95, liberation_size, mineral_fraction, mineral_density, gangue_density,
         grain_shape_factor, size_range_factor,
     )  # fmt: skip
     if lot_mass is None:
@@ -130,7 +130,7 @@ def sampling_error_gy(
 @formula(source="gy1979, ch. 19; wills2016, ch. 3", equation=_MASS)
 def sample_mass_gy(
     sampling_error: PositiveNumber,
-    largest_size: Length,
+    passing_size_95: Length,
     liberation_size: Length,
     mineral_fraction: Share,
     mineral_density: Density,
@@ -147,7 +147,7 @@ def sample_mass_gy(
     >>> round(
     ...     sample_mass_gy(
     ...         sampling_error=0.01,
-    ...         largest_size="25 mm",
+    ...         passing_size_95="25 mm",
     ...         liberation_size="150 um",
     ...         mineral_fraction=0.05 / 0.866,
     ...         mineral_density=7500,
@@ -157,7 +157,7 @@ def sample_mass_gy(
     178
     """
     C = _constant(
-        largest_size, liberation_size, mineral_fraction, mineral_density, gangue_density,
+        passing_size_95, liberation_size, mineral_fraction, mineral_density, gangue_density,
         grain_shape_factor, size_range_factor,
     )  # fmt: skip
     endless = C / sampling_error**2
