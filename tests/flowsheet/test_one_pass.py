@@ -40,7 +40,8 @@ def test_run_note_study_and_course_tell_the_same_flags(line) -> None:
         "fluidization.minimum_fluidization_velocity_saxena_vogel",
         "reynolds",
     ) in steady or any(flag == "extrapolated" and "saxena_vogel" in card for flag, card, _name in steady)
-    assert told(row for _steps, made in run._written.values() for row in describe(made.records)) == steady
+    alone = [unit.operate(**run._inlets(name)) for name, unit in run.sheet.units.items()]
+    assert told(row for made in alone for row in describe(made.records)) == steady
     course = march(line.sheet, np.linspace(0.0, 2.0, 3))
     assert told(course.flags) == steady
     assert all(row["count"] == 3 for row in course.flags if row["flag"] == "extrapolated")
@@ -48,9 +49,9 @@ def test_run_note_study_and_course_tell_the_same_flags(line) -> None:
     assert found.counts()["extrapolated"] == 2
 
 
-def test_note_and_run_have_the_same_checks_and_figures(line) -> None:
+def test_unit_and_run_have_the_same_checks_and_figures(line) -> None:
     run = line.solve()
-    report, (_steps, made) = run.units["bed"], run._written["bed"]
+    report, made = run.units["bed"], run.sheet.units["bed"].operate(**run._inlets("bed"))
     assert [(c.name, c.low, c.high, c.source) for c in report.checks] == [
         (c.name, c.low, c.high, c.source) for c in made.checks
     ]

@@ -12,6 +12,7 @@ from typing import Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.constants import DARCY
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
@@ -136,7 +137,7 @@ class CakeFilter(CakeMaker):
             "solids in the feed over those of a packed cake", 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"
         ),
         # above 1e-11 m² the source would rather drain or spin the crystals, which is no fault of a filter
-        "filterable": Limit("permeability of the cake", 1e-16, math.inf, "m^2", "anlauf2019, § 6.3"),
+        "filterable": Limit("permeability of the cake", 1e-4 * DARCY, math.inf, "m^2", "anlauf2019, § 6.3"),
         "entered": Limit(
             "pressure drop over the threshold pressure of a cake that is drained",
             1.0,
