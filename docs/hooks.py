@@ -15,12 +15,16 @@ import math
 import os
 import posixpath
 import re
+import tempfile
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 # Pages compile much and compute little: plain code is ready sooner, here and in what is started from here.
 os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false --xla_backend_optimization_level=0")
+# as in tests/conftest.py
+os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(Path(tempfile.gettempdir()) / "granum-compiled"))
+os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0")
 
 import chapters
 import notebooks

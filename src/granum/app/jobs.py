@@ -105,8 +105,8 @@ class _Process:
     def __init__(self, memory: int, cache_folder: str):
         environment = os.environ | {
             "JAX_COMPILATION_CACHE_DIR": os.environ.get("JAX_COMPILATION_CACHE_DIR", cache_folder),
-            "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.3",
         }
+        environment.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.3")
         command = [sys.executable, "-m", "granum.app.worker", str(memory), str(kept.folder() or "")]
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment
