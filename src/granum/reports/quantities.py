@@ -398,7 +398,7 @@ def _allowed(limit: Limit, card: Card) -> str:
 
 
 def _ruled(end: float, unit: str) -> float:
-    """An end of a limit without what it leaves to the rounding of a calculation; 0.1 mdarcy is no rounding."""
+    """An end of a limit without what it leaves to rounding; 0.1 mdarcy is none."""
     return 0.0 if -ROUNDING <= end <= (ROUNDING if unit == "dimensionless" else 0.0) else end
 
 
