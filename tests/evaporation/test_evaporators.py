@@ -190,6 +190,8 @@ def test_what_an_evaporator_cannot_do_names_the_setting_and_its_limit():
     low = re.search(r"\[([\d.]+) … ∞ bar\]", told("70 m^2", "1.03 bar")[1]).group(1)
     assert 1.03 < float(low) < 1.2
     assert "Another crystal" in told("70 m^2", "1.8 bar", hydrate)[1]
+    # one that is only thickened has no crystals that could be the wrong ones
+    assert not refused(told("20 m^2", "1.8 bar", hydrate)[0])
     # 4 t/h of water go on heat of some 2.2 MJ/kg through 2000 W/(m² K)
     duty = 2000.0 * most * float(large.figures.temperature_steam - large.figures.boiling_temperature)
     assert duty == pytest.approx(4000.0 / 3600.0 * 2.24e6 + 5000.0 / 3600.0 * 3500.0 * 44.0, rel=0.05)

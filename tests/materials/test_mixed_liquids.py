@@ -2,7 +2,15 @@
 
 import pytest
 
-from granum.materials import dynamic_viscosity_glycerol_water, fluid, seawater_density, seawater_viscosity
+from granum.materials import (
+    dynamic_viscosity_glycerol_water,
+    fluid,
+    seawater_conductivity,
+    seawater_density,
+    seawater_heat_capacity,
+    seawater_vapor_pressure,
+    seawater_viscosity,
+)
 from granum.particles import terminal_velocity_stokes
 
 
@@ -39,6 +47,16 @@ def test_seawater_by_the_oceanographers():
     assert seawater_viscosity("60 degC", 0.0) == pytest.approx(water.liquid_viscosity("60 degC"), rel=0.01)
     assert sea.boiling_temperature() > water.boiling_temperature()
     assert sea.liquid_heat_capacity("20 degC") < water.liquid_heat_capacity("20 degC")
+
+
+def test_seawater_carries_heat_and_evaporates_as_measured():
+    """At 25 °C and 35 g/kg, all recalled: 3993 J/(kg K) by UNESCO's equation, 0.60 W/(m K) of encyclopedias,
+    and Robinson's vapor pressure over that of water, 0.9814.
+    """
+    assert seawater_heat_capacity("25 degC") == pytest.approx(3993.0, rel=4e-3)
+    assert seawater_conductivity("25 degC") == pytest.approx(0.60, rel=0.03)
+    ratio = seawater_vapor_pressure("25 degC") / seawater_vapor_pressure("25 degC", 0.0)
+    assert ratio == pytest.approx(0.9814, abs=2.5e-3)
 
 
 def test_a_grain_falls_in_a_named_liquid():

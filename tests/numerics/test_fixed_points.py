@@ -1,11 +1,13 @@
 """Fixed points and systems: known answers, implicit derivatives, honest failures."""
 
+from collections.abc import Callable
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.numerics import Anderson, Newton, fixed_point, solve_system
+from granum.numerics import Anderson, Newton, fixed_point, settle, solve_system
 
 METHODS = [Anderson(), Anderson(window=1), Anderson(damping=0.5), Anderson(plain=4), Newton()]
 
@@ -138,6 +140,21 @@ def test_a_recycle_without_numbers_while_it_fills_is_filled_more_slowly() -> Non
     found = fixed_point(overflows, 0.0, method=Anderson(plain=4), scale=1.0)
     assert found.converged
     np.testing.assert_allclose(overflows(found.state, None), found.state)
+
+
+def test_what_had_come_to_rest_goes_on_where_its_neighbor_moved_a_little() -> None:
+    """Residuals that jump from nothing to 1e-9, as behind a loop that settles later."""
+
+    def loop(given: float) -> Callable[[jax.Array], tuple[jax.Array, tuple[()]]]:
+        return lambda x: (0.5 * x + given, ())
+
+    first = settle(loop(1.0), jnp.zeros(3), tolerance=1e-12)
+    assert first.converged
+    assert first.residual == 0.0
+    after = int(first.steps) + 4
+    again = settle(loop(1.0 + 1e-9), jnp.zeros(3), tolerance=1e-12, known=first.known, max_steps=after)
+    assert again.converged
+    np.testing.assert_allclose(again.state, 2.0 + 2e-9, rtol=1e-12)
 
 
 def test_running_out_of_steps_keeps_the_last_iterate() -> None:

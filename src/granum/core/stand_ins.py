@@ -39,12 +39,12 @@ _BY_DENSITY = {  # name: the input it stands for, its kind, the power of the den
 }
 
 
-_DESIGNS: dict[tuple[str, ...], Callable[[str], Callable[[Any], Mapping[str, Any]]]] = {}
+_DESIGNS: dict[tuple[str, ...], Callable[[str, Any], Mapping[str, Any]]] = {}
 
 _BY_DIAMETER = {"mass_flow": "mass_flux", "volume_flow": "superficial_velocity"}  # over the cross-section
 
 
-def designs(lengths: tuple[str, ...], of: Callable[[str], Callable[[Any], Mapping[str, Any]]]) -> None:
+def designs(lengths: tuple[str, ...], of: Callable[[str, Any], Mapping[str, Any]]) -> None:
     """Let ``standard``, the name of a design, stand for such lengths beside a ``diameter``; ``of`` makes all
     lengths from the name and the diameter. Whoever declares inputs with these lengths says so.
     """
@@ -146,7 +146,7 @@ class StandIns:
         """The lengths of a standard design for the diameter; what is given besides wins."""
         lengths, named = _designed(self.known), self.values.pop("standard")
         assert lengths is not None  # ``stands_for`` has found them
-        for name, length in _DESIGNS[lengths](named)(self._needed("standard", "diameter")).items():
+        for name, length in _DESIGNS[lengths](named, self._needed("standard", "diameter")).items():
             if name in self.known and name not in self.values and self.known[name] >= self.given_by_place:
                 self.values[name] = length
                 self.origins[name] = _("standard design {name}").format(name=named.replace("_", " "))

@@ -109,7 +109,11 @@ class StandardCyclone(eqx.Module):
         return Dimensions(diameter, *(ratio * diameter for ratio in standard_ratios()[self.standard]))
 
 
-designs(Dimensions._fields, lambda name: lambda diameter: StandardCyclone(name)(diameter)._asdict())  # type: ignore[arg-type]
+def _standard(name: Any, diameter: Any) -> dict[str, Any]:
+    return StandardCyclone(name)(diameter)._asdict()
+
+
+designs(Dimensions._fields, _standard)
 
 
 @law("cyclone_geometry", name="free_cyclone", source="hoffmann2008", title="Cyclone of free proportions")

@@ -6,6 +6,7 @@ crystallizes, and the solution left has one boiling point at the pressure; it mu
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -143,13 +144,13 @@ class Liquor:
             low, high = jnp.where(h, f.low, low), jnp.where(h, f.high, high)
         return low, high
 
-    def saturation(self, product: Stream) -> Any:
-        """The largest concentration of a solute of the library over its solubility."""
+    def saturation(self, product: Stream, solutes: Collection[int] | None = None) -> Any:
+        """The largest concentration over its solubility of the solutes of the library, or of some."""
         m, T, solvent = self.mixture, product.temperature, jnp.maximum(product.liquid[0], 1e-300)
         over = [jnp.zeros(())]
         for i, liquid in enumerate(m.liquids[1:], start=1):
             system = solute_system(m.materials, liquid.name, (self.solvent.name,))
-            if system is not None:
+            if system is not None and (solutes is None or i in solutes):
                 over.append(product.liquid[i] / solvent / system.value(T))
         return jnp.max(jnp.stack(over))
 

@@ -75,6 +75,10 @@ class Chords(eqx.Module):
         course = Course(mode, x, jnp.zeros_like(x), jnp.zeros_like(inverse), far, zero, zero, fresh, no)
         return x, far, inverse, self.settling.begin(x), course, zero
 
+    def resumed(self, carry: tuple, tolerance: float) -> tuple:
+        """As of ``Anderson``."""
+        return carry
+
     def hopes(self, carry: tuple) -> jax.Array:
         """As of ``Anderson``."""
         course = carry[4]

@@ -42,6 +42,10 @@ class Continuation(eqx.Module):
         forever = jnp.full((), LONGEST, start.dtype)
         return start, (start, infinite), start, infinite, forever, jnp.zeros((), bool), jnp.zeros((), int)
 
+    def resumed(self, carry: tuple, tolerance: float) -> tuple:
+        """As of ``Anderson``."""
+        return carry
+
     def hopes(self, carry: tuple) -> jax.Array:
         """As of ``Anderson``."""
         return carry[4] > SHORTEST

@@ -82,6 +82,14 @@ class Anderson(AbstractMethod):
         still = jnp.zeros_like(start)
         return start, (start, infinite), (start, still), history, history, infinite, zero, zero
 
+    def resumed(self, carry: tuple, tolerance: float) -> tuple:
+        """The state to go on with. One that had come to rest begins to learn anew: what it knows of residuals
+        is older than they are.
+        """
+        *others, least, rejected, number = carry
+        rested = least <= tolerance  # told to ``proceed`` as fewer rejections than none
+        return *others, jnp.where(rested, jnp.inf, least), jnp.where(rested, -1, rejected), number
+
     def hopes(self, carry: tuple) -> jax.Array:
         """Whether it makes sense to go on."""
         return jnp.asarray(True)
@@ -92,7 +100,7 @@ class Anderson(AbstractMethod):
 
     def proceed(self, carry: tuple, r: jax.Array) -> tuple:
         """The next state, given the residual at its first item."""
-        x, best, base, points, residuals, least, rejected, number = carry
+        x, best, base, points, residuals, least, rejected_before, number = carry
         slots = len(points)
         size = largest(r)
         least = jnp.where(number % self.leniency == 0, jnp.inf, least)
@@ -102,18 +110,18 @@ class Anderson(AbstractMethod):
         # worse and be right
         second = (number == jnp.maximum(self.plain, 1)) & jnp.isfinite(size) & (size <= 100.0 * least)
         accepted = second | ((size <= 2.0 * least) & (jnp.isfinite(size) | (number == 0)))
-        instructive = ~accepted & (size <= 10.0 * least) & (rejected == 0) & jnp.isfinite(size)
+        instructive = ~accepted & (size <= 10.0 * least) & (rejected_before == 0) & jnp.isfinite(size)
         least = jnp.where(second, size, jnp.minimum(size, least))
         best = chosen(second | (size < best[1]), (x, size), best)
         base = chosen(accepted, (x, r), base)
-        rejected = jnp.where(accepted, 0, rejected + 1)
+        rejected = jnp.where(accepted, 0, rejected_before + 1)
         slot = number % slots
         points, residuals = chosen(
             accepted | instructive,
             (points.at[slot].set(x), residuals.at[slot].set(r)),
             (jnp.broadcast_to(base[0], points.shape), jnp.broadcast_to(base[1], points.shape)),
         )
-        forgets = filling | (number == 0)
+        forgets = filling | (number == 0) | (rejected_before < 0)
         points = jnp.where(forgets, x, points)
         residuals = jnp.where(forgets, r, residuals)
         moves, changes = points - base[0], residuals - base[1]

@@ -72,6 +72,11 @@ class Seeking(eqx.Module):
         best = (start, jnp.full((), jnp.inf, start.dtype))
         return start, best, self.settling.begin(state), sought, no, jnp.zeros_like(state), jnp.zeros((), int)
 
+    def resumed(self, carry: tuple, tolerance: float) -> tuple:
+        """As of ``Anderson``."""
+        x, best, inner, *others = carry
+        return x, best, self.settling.resumed(inner, tolerance), *others
+
     def hopes(self, carry: tuple) -> jax.Array:
         """As of ``Anderson``."""
         return ~carry[3].lost

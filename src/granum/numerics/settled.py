@@ -123,7 +123,9 @@ def settle(
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
         begun = method.begin(start), _turning(turns, start)
-        iteration, turning, made = lax.while_loop(unfinished, advance, (*_resumed(begun, known), blank))
+        iteration, turning, made = lax.while_loop(
+            unfinished, advance, (*_resumed(begun, known, method, tolerance), blank)
+        )
         (x, size), number = iteration[1], _passes(iteration, turning)
         return x, made, size, number.astype(x.dtype), _packed((iteration, turning))
 
@@ -166,7 +168,7 @@ def knowledge(method: Method, size: int, turns: Turns | None = None) -> int:
 def again(method: Chords, known: jax.Array, size: int, turns: Turns | None = None) -> jax.Array:
     """What ``known`` of one outcome is to begin a neighbor with."""
     begun = method.begin(jnp.zeros((size,))), _turning(turns, jnp.zeros((size,)))
-    iteration, _turned = _resumed(begun, known)
+    iteration, _turned = _resumed(begun, known, method, 0.0)
     return _packed((method.again(iteration), _turning(turns, iteration[1][0])))
 
 
@@ -184,8 +186,10 @@ def _packed(known: tuple) -> jax.Array:
     return jnp.concatenate([jnp.ones((1,)), *leaves])
 
 
-def _resumed(begun: tuple, known: jax.Array | None) -> tuple:
-    """The iteration as it was left, but for what its best point made, which the next one makes anew."""
+def _resumed(begun: tuple, known: jax.Array | None, method: Method, tolerance: float) -> tuple:
+    """The iteration as it was left, but for what its best point made, which the next one makes anew. One that
+    had come to rest is not held to that: upstream of it something may have moved a little.
+    """
     if known is None:
         return begun
     leaves, tree = jax.tree.flatten(begun)
@@ -193,5 +197,5 @@ def _resumed(begun: tuple, known: jax.Array | None) -> tuple:
     parts = jnp.split(known[1:], ends[:-1])
     left = [part.reshape(leaf.shape).astype(leaf.dtype) for part, leaf in zip(parts, leaves, strict=True)]
     (x, (best, _size), *others), turning = jax.tree.unflatten(tree, left)
-    again = (x, (best, jnp.full_like(_size, jnp.inf)), *others), turning
+    again = method.resumed((x, (best, jnp.full_like(_size, jnp.inf)), *others), tolerance), turning
     return jax.tree.map(lambda old, new: jnp.where(known[0] > 0, old, new), again, begun)

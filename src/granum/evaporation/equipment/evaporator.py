@@ -142,15 +142,19 @@ class Heating(Unit):
         """Of a wall, W/K."""
         return self.area / (1.0 / coefficient + self.fouling_thermal_resistance)
 
-    def right_crystal(self, liquor: Liquor, T: Any) -> None:
-        """Say where another crystal of the solute would form than those of the mixture."""
-        low, high = liquor.among(T)
-        beyond((low > T) | (high < T), T, "boiling_temperature", type(self).card, low, high, OTHER_CRYSTAL)
+    def right_crystal(self, liquor: Liquor, made: Effect) -> None:
+        """Say where another crystal of the solute forms than those of the mixture: not in a solution that is
+        only thickened.
+        """
+        T, (low, high) = made.temperature, liquor.among(made.temperature)
+        over = liquor.saturation(made.product, [f.roles.solute for f in liquor.crystals]) > 1.0
+        wrong = over & ((low > T) | (high < T))
+        beyond(wrong, T, "boiling_temperature", type(self).card, low, high, OTHER_CRYSTAL)
 
     def settled(self, liquor: Liquor, made: Effect) -> None:
         """Say where an effect has no solution."""
         card = type(self).card
-        self.right_crystal(liquor, made.temperature)
+        self.right_crystal(liquor, made)
         unsolved(made.found, card, reason=NOT_FOUND)
         unsolved(~made.found | (made.evaporation > 0.0), card, reason=COLD_CHEST)
         unsolved(made.left > DRY_OUT, card, reason=DRY)
@@ -170,7 +174,7 @@ class _Single(Heating):
         card, steam = type(self).card, jnp.asarray(self.pressure_steam, dtype=float)
         boils, cold = made.evaporation > 0.0, made.duty <= 0.0
         unsolved(made.found, card, reason=NOT_FOUND)
-        self.right_crystal(liquor, made.temperature)
+        self.right_crystal(liquor, made)
         least = liquor.vapor_pressure(made.temperature)
         beyond(made.found & cold, steam, "pressure_steam", card, low=least, reason=COLD_STEAM)
         needed = self.area * safe_divide(made.taken, made.duty, 0.0)
