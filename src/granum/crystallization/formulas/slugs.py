@@ -70,9 +70,9 @@ def slug_flow(
     """Speed of the bubbles, film past which they glide, share of gas and pressure drop of slug flow.
 
     Bubbles run ahead of the mean flow by the section that the film takes. The capillary number is that of the
-    bubbles; the friction has the mean velocity in both groups. Bubbles count as cylinders. Where gravity
-    is stronger than surface tension (Eötvös number beyond 3.4, Bretherton) bubbles rise in the liquid
-    and slugs do not part it.
+    bubbles; the friction has the mean velocity in both groups. Bubbles count as cylinders that fill the tube.
+    Where gravity is stronger than surface tension (Eötvös number beyond 3.4, Bretherton) bubbles rise in the
+    liquid and slugs do not part it.
 
     >>> found = slug_flow("20 mm/s", "20 mm/s", "3 mm", "15 m", "6 mm", 1000, "1 mPa s", "72 mN/m")
     >>> [float(f"{x:.3g}") for x in found[:4]]

@@ -137,6 +137,7 @@ class CakeFilter(CakeMaker):
             "solids in the feed over those of a packed cake", 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"
         ),
         # above 1e-11 m² the source would rather drain or spin the crystals, which is no fault of a filter
+        # 1e-16 m² in the print, of which the power alone is meant
         "filterable": Limit("permeability of the cake", 1e-4 * DARCY, math.inf, "m^2", "anlauf2019, § 6.3"),
         "entered": Limit(
             "pressure drop over the threshold pressure of a cake that is drained",
