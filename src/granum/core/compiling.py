@@ -16,6 +16,7 @@ from jax.extend.core import jaxpr_as_fun
 
 from granum.core import kept
 from granum.core.conversion import is_tracer
+from granum.core.traces import Reader
 from granum.core.uncompiled import RENT, Outgrown, Program
 
 HASTY = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 1}
@@ -174,9 +175,10 @@ def once(function: Callable[..., Any], *given: Any) -> Any:
         program, tree = Program(trace), jax.tree.structure(out, is_leaf=kept.is_slot)
     else:
         closed, shape = jax.make_jaxpr(function, return_shape=True)(*given)
-        program, tree = Program(closed), jax.tree.structure(shape)
+        trace, tree = Reader().read(closed), jax.tree.structure(shape)
+        program = Program(trace)
         if name is not None:
-            content = program.trace, jax.tree.unflatten(tree, [kept.Slot()] * tree.num_leaves)
+            content = trace, jax.tree.unflatten(tree, [kept.Slot()] * tree.num_leaves)
             name.put(lambda: content if program.lasts else None)
     values, _steps = program.run(jax.tree.leaves(given))
     return jax.tree.unflatten(tree, values)

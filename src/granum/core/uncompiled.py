@@ -72,20 +72,23 @@ class Program:
         kept: bool = False,
         **options: Any,
     ):
-        self.trace = program if isinstance(program, Trace) else Reader().read(program)
-        self._maker = _Maker(options, loops, kept)
-        self.size, self.work, self._body = self._maker.made(self.trace)
-        self._takes = [shaped.dtype for shaped in self.trace.given]
+        trace = program if isinstance(program, Trace) else Reader().read(program)
+        maker = _Maker(options, loops, kept)
+        self.size, self.work, self._body = maker.made(trace)
+        self._takes = [shaped.dtype for shaped in trace.given]
+        self._loops, self._numpy_does_all = maker.loops, maker.lasts
+        # what is only run needs its steps: the trace, with JAX's own form of it, takes five times as much
+        self.trace = trace if kept else None
 
     @property
     def loops(self) -> list[bytes | None]:
         """Of each loop, in the order of the program, what was compiled, as the compiler is given it."""
-        return [loop.written for loop in self._maker.loops]
+        return [loop.written for loop in self._loops]
 
     @property
     def lasts(self) -> bool:
         """Whether it can be run by another process."""
-        return self._maker.lasts and not any(loop.is_lost for loop in self._maker.loops)
+        return self._numpy_does_all and not any(loop.is_lost for loop in self._loops)
 
     def run(self, values: Sequence[Any]) -> tuple[list[Any], float]:
         """The results for a flat list of values, and the steps taken."""
@@ -174,7 +177,7 @@ class _Loop:
     """A loop, and whether it is time to compile it."""
 
     def __init__(self, op: Operation, maker: _Maker, size: float, work: float):
-        self._op, self._options, self._kept = op, _thorough(maker.options), maker.kept
+        self._whole, self._options, self._kept = op.whole, _thorough(maker.options), maker.kept
         rent = LENT if self._kept and size <= MODERATE else RENT
         self.size, self.work = size, work
         self.written = next(maker.written, None)
@@ -210,9 +213,9 @@ class _Loop:
             from jax import export
 
             return export.deserialize(bytearray(self.written)).call
-        if self._op.whole is None:
+        if self._whole is None:
             raise Outgrown
-        bind, params = self._op.whole.primitive.bind, self._op.whole.params
+        bind, params = self._whole.primitive.bind, self._whole.params
 
         def plain(*given: Any) -> Any:
             return bind(*given, **params)
@@ -298,7 +301,7 @@ def _scan(op: Operation, maker: _Maker) -> Made:
         body = maker.made(params["jaxpr"])
     loop = _Loop(op, maker, body.size, length * body.work)
     first, second = params["num_consts"], params["num_consts"] + carried
-    shapes = params["jaxpr"].made[carried:]
+    shapes, backward = params["jaxpr"].made[carried:], params["reverse"]
 
     def step(*values: Any) -> Any:
         if loop.is_due():
@@ -306,7 +309,7 @@ def _scan(op: Operation, maker: _Maker) -> Made:
         before = _taken.steps
         fixed, carry, rows = values[:first], list(values[first:second]), values[second:]
         made = [np.empty((length, *shape), dtype) for shape, dtype in shapes]
-        for i in range(length)[:: -1 if params["reverse"] else 1]:
+        for i in range(length)[:: -1 if backward else 1]:
             found = body.run(*fixed, *carry, *(row[i] for row in rows))
             carry = found[:carried]
             for whole, part in zip(made, found[carried:], strict=True):
