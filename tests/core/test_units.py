@@ -84,7 +84,8 @@ from granum.particles import reynolds_number, terminal_velocity
         ("1\u00a0200\u00a0kg/h", "MassFlow", 1 / 3),
         ("1,200.5 kg/h", "MassFlow", 1200.5 / 3600),
         ("1.200,5 kg/h", "MassFlow", 1200.5 / 3600),
-        ("1,200 kg/h", "MassFlow", 1.2 / 3600),
+        ("0,200 kg/h", "MassFlow", 0.2 / 3600),
+        ("1,20 kg/h", "MassFlow", 1.2 / 3600),
         ("\u22125 degC", "Temperature", 268.15),
         ("1.07 × 10⁸ Pa", "Pressure", 1.07e8),
         ("2 × 10⁻³ m", "Length", 2e-3),
@@ -95,6 +96,19 @@ from granum.particles import reynolds_number, terminal_velocity
 )
 def test_text_becomes_si(text: str, kind: str, expected: float) -> None:
     assert units.read_quantity(text, KINDS[kind], "x") == pytest.approx(expected, rel=1e-9)
+
+
+def test_three_digits_behind_a_comma_are_thousands_to_some_and_decimals_to_others() -> None:
+    flow = KINDS["MassFlow"]
+    with pytest.raises(InputError, match=r"'1,200 kg/h' may be 1200 or 1\.200"):
+        units.read_quantity("1,200 kg/h", flow, "x")
+    with pytest.raises(InputError, match="may be"):
+        units.read_quantity("10,000 USD", KINDS["Cost"], "x")
+    assert units.read_quantity("$10,000", KINDS["Cost"], "x") == 1e4
+    with language("fr"):
+        assert units.read_quantity("1,200 kg/h", flow, "x") == pytest.approx(1.2 / 3600)
+        with pytest.raises(InputError, match="10000 ou 10"):
+            units.read_quantity("10,000 USD", KINDS["Cost"], "x")
 
 
 @pytest.mark.parametrize(

@@ -41,6 +41,8 @@ _BY_DENSITY = {  # name: the input it stands for, its kind, the power of the den
 
 _DESIGNS: dict[tuple[str, ...], Callable[[str, Any], Mapping[str, Any]]] = {}
 
+_ROUND: set[tuple[str, ...]] = set()
+
 _BY_DIAMETER = {"mass_flow": "mass_flux", "volume_flow": "superficial_velocity"}  # over the cross-section
 
 
@@ -49,6 +51,27 @@ def designs(lengths: tuple[str, ...], of: Callable[[str, Any], Mapping[str, Any]
     lengths from the name and the diameter. Whoever declares inputs with these lengths says so.
     """
     _DESIGNS[lengths] = of
+
+
+def circle(*beside: str) -> None:
+    """Let ``diameter`` stand for the ``area`` of what asks for these inputs beside it: it is round. Whoever
+    declares such a piece of equipment says so.
+    """
+    _ROUND.add(beside)
+
+
+def not_varied(name: str, known: Container[str], where: str = "") -> InputError | None:
+    """Why a study cannot vary a name that stands for an input; None of other names."""
+    wanted = stands_for(name, known)
+    if wanted is None:
+        return None
+    return InputError(
+        _(
+            "'{name}' stands in place of '{wanted}'{where} and holds one value: a study varies '{wanted}' itself."
+        ).format(name=name, wanted=wanted, where=where),
+        name=name,
+        did_you_mean=wanted,
+    )
 
 
 def _designed(known: Container[str]) -> tuple[str, ...] | None:
@@ -66,8 +89,8 @@ def stands_for(name: str, known: Container[str]) -> str | None:
     if name == "standard":
         lengths = _designed(known)
         return lengths[0] if lengths else None
-    if name == "diameter" and "area" in known and "underflow_concentration" in known:
-        return "area"  # of a round thickener
+    if name == "diameter" and "area" in known and any(all(b in known for b in own) for own in _ROUND):
+        return "area"
     if name in _BY_DIAMETER:
         return _BY_DIAMETER[name] if _BY_DIAMETER[name] in known and "diameter" in known else None
     wanted = _BY_DENSITY[name][0] if name in _BY_DENSITY else name.replace("diameter", "radius")

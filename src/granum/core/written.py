@@ -86,6 +86,23 @@ def apart(text: str) -> str:
     return found[1] if found else ""
 
 
+_THREE_BEHIND = re.compile(r"\s*\$?([+-]?[1-9]\d{0,2}),(\d{3})(?![\d.,eE])")
+
+
+def thousands_or_decimals(text: str) -> tuple[str, str] | None:
+    """Both readings of a number with three digits behind its only comma; None of every other text.
+
+    >>> (
+    ...     thousands_or_decimals("2,500 kg/m3"),
+    ...     thousands_or_decimals("0,125 m"),
+    ...     thousands_or_decimals("2,50 m"),
+    ... )
+    (('2500', '2.500'), None, None)
+    """
+    found = _THREE_BEHIND.match(tidy(text))
+    return (found[1] + found[2], f"{found[1]}.{found[2]}") if found and "$" not in found[0] else None
+
+
 def mixed(text: str) -> tuple[str, str] | None:
     """A whole number that a fraction follows, read as one number and as two; None where a text has none.
 

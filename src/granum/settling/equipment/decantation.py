@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.core import equipment
+from granum.core import equipment, stand_ins
 from granum.core.kinds import (
     Area,
     Concentration,
@@ -61,6 +61,9 @@ class DecantationFigures(NamedTuple):
     underflow_concentration: Concentration
     underflow_volume_flow: VolumeFlow
     overflow_concentration: Concentration
+
+
+stand_ins.circle("solids_mass_fraction_underflow")
 
 
 @equipment(
