@@ -67,7 +67,8 @@ def not_varied(name: str, known: Container[str], where: str = "") -> InputError 
         return None
     return InputError(
         _(
-            "'{name}' stands in place of '{wanted}'{where} and holds one value: a study varies '{wanted}' itself."
+            "'{name}' stands in place of '{wanted}'{where} and holds one value: a study varies "
+            "'{wanted}' itself."
         ).format(name=name, wanted=wanted, where=where),
         name=name,
         did_you_mean=wanted,
