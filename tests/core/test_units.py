@@ -98,6 +98,38 @@ def test_text_becomes_si(text: str, kind: str, expected: float) -> None:
     assert units.read_quantity(text, KINDS[kind], "x") == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("text", "kind", "expected"),
+    [
+        ("0.030 kg H2O/kg dry air", "HumidityRatio", 0.03),
+        ("0.02 lb water/lb dry air", "HumidityRatio", 0.02),
+        ("1.51 kg H2O/h.m2", "MassFlux", 1.51 / 3600),
+        ("0.38 kg eau/kg matière sèche", "MoistureDryBasis", 0.38),
+        ("21.5 kg/100 kg water", "MassRatio", 0.215),
+        ("20 kg de vapeur/h", "MassFlow", 20 / 3600),
+        ("12 % ", "MassFraction", 0.12),
+        ("106/286.2", "Ratio", 106 / 286.2),
+        ("1.5/3", "Ratio", 0.5),
+    ],
+)
+def test_units_bear_what_they_are_units_of(text: str, kind: str, expected: float) -> None:
+    assert units.read_quantity(text, KINDS[kind], "x") == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("0.03 kg water/kg humid air", "HumidityRatio"),
+        ("0.3 kg water/kg wet solid", "MoistureDryBasis"),
+        ("0.3 kg water/kg dry solid", "MassFraction"),
+        ("3 kg dry air/s", "MassFlow"),
+    ],
+)
+def test_another_basis_is_not_read_over(text: str, kind: str) -> None:
+    with pytest.raises(UnitError, match="not known"):
+        units.read_quantity(text, KINDS[kind], "x")
+
+
 def test_three_digits_behind_a_comma_are_thousands_to_some_and_decimals_to_others() -> None:
     flow = KINDS["MassFlow"]
     with pytest.raises(InputError, match=r"'1,200 kg/h' may be 1200 or 1\.200"):

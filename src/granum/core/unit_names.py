@@ -155,6 +155,69 @@ _STANDARD_GAS = re.compile(
 DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}
 
 
+_WATER = ("h2o", "water", "moisture", "vapor", "vapour", "water vapor", "steam", "eau", "vapeur", "humidité")
+_DISSOLVED = ("solute", "salt", "solid", "solids", "soluté", "sel", "solide", "anhydrous")
+_DRY = (
+    "dry air",
+    "dry gas",
+    "d.a.",
+    "dry solid",
+    "dry solids",
+    "dry matter",
+    "dry basis",
+    "bone dry solid",
+    "ds",
+    "dm",
+)
+_SEC = ("air sec", "gaz sec", "solide sec", "matière sèche", "produit sec", "ms", "base sèche", "dry product")
+_WHOLE = (
+    "wet solid",
+    "wet solids",
+    "wet material",
+    "wet basis",
+    "solution",
+    "slurry",
+    "total",
+    "suspension",
+    "mixture",
+)
+_HUMIDE = ("solide humide", "produit humide", "base humide", "mélange", "wet product")
+_OF_WHAT = re.compile(
+    r"(?<![A-Za-z])(kg|mg|g|t|lbm?|kmol|mol)\s+(?:of\s+|de\s+|d['’])?"
+    r"((?!per\b)[^\W\d_][\w.]*(?:\s(?!per\b)[^\W\d_][\w.]*)*)(?=\s*(?:[/*·)(]|$|\bper\b))"
+)
+# what the ratio of each kind may be told per
+_PER = {
+    "humidity ratio": (*_DRY, *_SEC),
+    "moisture, dry basis": (*_DRY, *_SEC),
+    "mass ratio": (*_DRY, *_SEC, *_WATER, "solvent", "solvant"),
+    "mass fraction": (*_WHOLE, *_HUMIDE),
+    "moisture, wet basis": (*_WHOLE, *_HUMIDE),
+}
+
+
+def without_substances(unit: str, kind: str) -> str:
+    """A unit without the substances that books set behind its masses, where they say what the kind says too;
+    else as it is.
+
+    >>> (
+    ...     without_substances("kg H2O/kg dry air", "humidity ratio"),
+    ...     without_substances("lb water/h", "mass flow"),
+    ... )
+    ('kg/kg', 'lb/h')
+    >>> without_substances("kg water/kg wet solid", "moisture, dry basis")
+    'kg water/kg wet solid'
+    """
+    if len(unit) > LONGEST_UNIT or not _OF_WHAT.search(unit):
+        return unit
+    told = [(m.start(), m[2].lower()) for m in _OF_WHAT.finditer(unit)]
+    below = unit.find("/") if "/" in unit else len(unit)
+    allowed = all(
+        word in _WATER + _DISSOLVED if at < below else word in _PER.get(kind, ()) for at, word in told
+    )
+    return _OF_WHAT.sub(r"\1", unit) if allowed else unit
+
+
 @cache
 def parse_unit(text: str) -> Any:
     """A Pint unit from text such as ``kg/m3``, ``µm``, ``%`` or ``°C``."""

@@ -18,7 +18,16 @@ from granum.core.errors import InputError, UnitError
 from granum.core.given import shown
 from granum.core.i18n import _, current_language
 from granum.core.kinds import Kind
-from granum.core.unit_names import DEGREES, ELSE, LONGEST_UNIT, fits, parse_unit, registry, same_dimension
+from granum.core.unit_names import (
+    DEGREES,
+    ELSE,
+    LONGEST_UNIT,
+    fits,
+    parse_unit,
+    registry,
+    same_dimension,
+    without_substances,
+)
 from granum.core.unit_table import counts_angles, rows
 from granum.core.written import apart, interval, mixed, read_number, thousands_or_decimals, tidy
 
@@ -108,6 +117,7 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
         unit = re.sub(r"\bN\s?(?=m\s?(\^?3|³))", "", unit)
     if kind.unit == "delta_degC" and unit.strip() in ("degC", "°C", "K"):
         return value
+    unit = without_substances(unit, kind.name)
     try:
         factor, offset = _conversion(unit, kind)
     except UnitError as problem:
