@@ -104,6 +104,16 @@ _SPELLINGS = {
     "mm H2O": "mmH2O",
     "mm WC": "mmH2O",
     "mm water": "mmH2O",
+    "cm H2O": "cmH2O",
+    "m H2O": "meter_H2O",
+    "cm Hg": "cmHg",
+    "cu. m": "m^3",
+    "cu m": "m^3",
+    "r.p.m.": "rpm",
+    "MLD": "megaliter/day",
+    "gpl": "g/L",
+    "W/mK": "W/(m*K)",
+    "W/(mK)": "W/(m*K)",
     "in. w.g.": "inH2O",
     "in. W.C.": "inH2O",
     "in. w.c.": "inH2O",
@@ -146,6 +156,8 @@ ELSE = {
     "CV": "metric_horsepower",
     "ch": "metric_horsepower",
     "PS": "metric_horsepower",
+    "µ": "um",
+    "μ": "um",
 }
 # volumes of gas as if it were at some standard state
 _STANDARD_GAS = re.compile(
@@ -252,6 +264,8 @@ def parse_unit(text: str) -> Any:
             unit=text,
         )
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
+    spelled = re.sub(r"\b(N|Pa)-s\b", r"\1*s", spelled)
+    spelled = re.sub(r"\bm(\^?2)h\b", r"m\1*h", spelled)  # L/m2h
     spelled = re.sub(r"\b([kM]?N)m\b", r"\1*m", spelled)  # or else a nautical mile
     spelled = re.sub(r"\b(ft|in|lbf?)-(ft|in|lbf?)\b", r"\1*\2", spelled)
     # gal/1000 ft3, lb per 1000 gal
