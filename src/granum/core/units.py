@@ -55,7 +55,7 @@ def affine_by_pint(unit: str, kind_unit: str) -> tuple[float, float]:
             r"[A-Za-z]\s*[-*·. ]\s*[A-Za-z]", unit
         )  # ft-lb, kg m: a force over a length
         meant = [text for text in readings if product and text != unit and fits(text, kind_unit)]
-        other = re.sub(r"[A-Za-z]+", lambda word: ELSE.get(word[0], word[0]), unit)
+        other = re.sub(r"[A-Za-zµμ]+", lambda word: ELSE.get(word[0], word[0]), unit)
         meant += [other] if other != unit and fits(other, kind_unit) else []
         if not meant:
             parse_unit(unit)  # says so where the unit itself is not known
