@@ -184,7 +184,8 @@ lasting_dirty = dirtier.figure("cartridge_filter.run_time")
 left_good = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=50)
 left_poor = f.solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=5)
 left_dahlstrom = f.solute_remaining_dahlstrom(wash_ratio=1.5, displacement_efficiency=0.7)
-decanted = {n: f.solute_remaining_countercurrent(wash_ratio=3, wash_stages=n) for n in (3, 4, 5)}
+badly_mixed = gr.settling.soluble_loss_countercurrent(3, 4, mixing_efficiency=0.9)
+decanted = {n: gr.settling.soluble_loss_countercurrent(wash_ratio=3, wash_stages=n) for n in (3, 4, 5)}
 stirred_up = f.solute_remaining_reslurry(reslurry_ratio=1, wash_stages=3)
 
 # ---- blow

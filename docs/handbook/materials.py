@@ -8,6 +8,7 @@ import numpy as np
 import granum as gr
 from granum.app.chapters import said
 from granum.core.charts import DASHES, LINES, add_line, add_points, axis_title, figure
+from granum.materials.stated import StatedFluid
 
 m = gr.materials
 DATA = Path(__file__).parent.parent / "data"
@@ -22,6 +23,10 @@ air_thicker = float(air[300].dynamic_viscosity) / float(air[20].dynamic_viscosit
 air_lighter = float(air[20].gas_density) / float(air[300].gas_density)
 # ---- liquids of trade
 glycerol = {w: m.dynamic_viscosity_glycerol_water("20 degC", w) for w in (0.99, 1.0)}
+cold = StatedFluid.read("20 % calcium chloride at 0 °C")
+brine_density, brine_viscosity = float(cold.density()), 1e3 * float(cold.viscosity())
+olive = {t: 1e3 * float(m.fluid("olive oil").liquid_viscosity(f"{t} degC")) for t in (20, 40)}
+hydraulic = 1e3 * float(m.fluid("mineral oil VG 46").liquid_viscosity("20 degC"))
 ocean = m.fluid("seawater")
 sea = {"density": ocean.liquid_density("20 degC"), "viscosity": 1e3 * ocean.liquid_viscosity("20 degC")}
 # ---- warm

@@ -250,3 +250,21 @@ def test_what_moves_a_cake_over_a_cone():
     tumbled = TumblingScreen(tumbling_angle="13 degree", **cone)
     for unit, moves in ((shaken, True), (weak, False), (tumbled, True)):
         assert unit.operate(feed=coal).checks[-1].ok is moves
+
+
+def test_without_solid_there_is_no_cake_to_wait_for():
+    """A pusher had told a cycle of 10²⁹² days."""
+    clear = stream(0.0, 1.5, 0.0)
+    pusher = Pusher(radius_outer=0.4, rotation_speed=150.0, cake_radius=0.36, basket_length=0.5, **COMMON)
+    peeler = Peeler(
+        radius_outer=0.4,
+        rotation_speed=150.0,
+        cake_radius=0.36,
+        basket_height=0.5,
+        radius_inner=0.3,
+        **COMMON,
+    )
+    for unit in (pusher, peeler):
+        figures = unit.operate(feed=clear).figures
+        assert 0.0 <= float(figures.cycle_time) < 600.0
+        assert float(figures.loading_time) == 0.0

@@ -60,6 +60,7 @@ LONG = {  # slow to compile, or solved by the code of a neighbor that is tried
     "filtration.pressure_leaf_filter",
     "filtration.rotary_disc_filter",
     "settling.clarifier_thickener",
+    "settling.countercurrent_decantation",
 }
 ALONE = ("fluidization.fluidized_bed", "cyclones.gas_cyclone", "filtration.rotary_vacuum_drum")
 GROUPS = (

@@ -54,6 +54,7 @@ from granum.particles.partition import (
 )
 from granum.settling.compression import PowerStress
 from granum.settling.equipment.clarifier_thickener import ClarifierThickener
+from granum.settling.equipment.decantation import CountercurrentDecantation
 from granum.settling.equipment.secondary_settler import SecondarySettler
 from granum.settling.velocities import Takacs, Vesilind
 from granum.streams.equipment.agglomerator import Agglomerator
@@ -556,6 +557,17 @@ def basics(classes: int) -> dict[str, Case]:
                 PowerStress(30.0 + 70.0 * u[5], 5.0, 3.0),
                 concentration_maximum=600.0,
                 cells=20,
+            ),
+        ),
+        "decantation": Case(
+            fine,
+            with_wash,
+            lambda f, u: CountercurrentDecantation(
+                1.0 + 9.0 * u[0],
+                f["feed"].solid_flow * 10.0 ** (1.0 + 3.0 * u[1]),
+                0.1 + 0.6 * u[2],
+                Vesilind(10.0 ** (-4.0 + 1.5 * u[3]), 0.001 + 0.01 * u[4]),
+                mixing_efficiency=0.8 + 0.2 * u[5],
             ),
         ),
         "secondary-settler": Case(

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from granum.cases.alone import tables
+from granum.cases.alone import alone, tables
+from granum.cases.worded import study_text
 from granum.centrifuges import centrifugal_effect
 from granum.conveying import deposition_velocity_durand, saltation_velocity_rizk
 from granum.core.errors import InputError
@@ -47,6 +48,20 @@ def test_a_flow_and_a_pipe_stand_for_a_flux():
     assert saltation_velocity_rizk(mass_flow="900 kg/h", **given) == pytest.approx(right)
 
 
+def test_a_flow_and_a_vessel_stand_for_a_velocity():
+    # Geankoplis, example 3.1-4 (recalled): 0.358 kg/s of air through 2.44 m of spheres in 0.61 m, 0.0497 bar
+    bed = {"length": "2.44 m", "particle_diameter": "12.7 mm", "void_fraction": 0.38}
+    air = {"fluid_density": 1.221, "dynamic_viscosity": 1.9e-5}
+    found = pressure_drop_packed_bed(mass_flow="0.358 kg/s", diameter="0.61 m", **bed, **air)
+    assert found == pytest.approx(4970.0, rel=2e-3)
+    same = pressure_drop_packed_bed(volume_flow=0.358 / 1.221, diameter=0.61, **bed, **air)
+    assert same == pytest.approx(found)
+    with pytest.raises(InputError, match="'diameter' needs 'volume_flow'"):
+        pressure_drop_packed_bed(diameter="0.61 m", **bed, **air)
+    with pytest.raises(InputError, match="twice"):
+        pressure_drop_packed_bed(superficial_velocity=1.0, volume_flow=0.29, diameter=0.61, **bed, **air)
+
+
 def test_a_standard_design_stands_for_its_lengths():
     shape = StandardCyclone("lapple")(1.0)._asdict()
     right = cyclone_efficiency_lapple(volume_flow="5000 m3/h", **DUST, **shape)
@@ -59,3 +74,18 @@ def test_a_standard_design_stands_for_its_lengths():
 def test_a_specific_gravity_without_a_unit_is_refused():
     with pytest.raises(InputError, match=r"2\.65 g/cm³"):
         deposition_velocity_durand(diameter="12 in", particle_density="2.65", liquid_density="1 g/cm3")
+
+
+def test_a_bare_number_of_a_case_file_is_refused_as_well():
+    """In a file 2.65 is a number and no text."""
+    with pytest.raises(InputError, match=r"2\.65 g/cm³"):
+        alone("filtration.deep_bed_filter", particle_density=2.65)
+
+
+def test_a_study_tells_what_it_varies_instead():
+    for key, words in (
+        ("settling.thickener", {"diameter": "15..20m"}),
+        ("particles.terminal_velocity", {"kinematic_viscosity": "0.5..2cSt"}),
+    ):
+        with pytest.raises(InputError, match="stands in place of"):
+            study_text(key, words)

@@ -63,6 +63,14 @@ from granum.particles import reynolds_number, terminal_velocity
         ("1 cp", "DynamicViscosity", 1e-3),
         ("1 mD", "Permeability", 9.869232667160130e-16),
         ("1 mil", "Length", 25.4e-6),
+        ("1.5 W/mK", "ThermalConductivity", 1.5),
+        ("50 L/m2h", "Velocity", 0.05 / 3600),
+        ("1e-3 N-s/m2", "DynamicViscosity", 1e-3),
+        ("3 m H2O", "PressureDrop", 29419.95),
+        ("50 cm Hg", "PressureDrop", 66661.1936842),
+        ("3000 r.p.m.", "RotationSpeed", 100 * np.pi),
+        ("1 MLD", "VolumeFlow", 1000 / 86400),
+        ("50 µ", "Length", 5e-5),
         ("8 gal/1000 ft3", "Ratio", 8 * 231 * 0.0254**3 / 28.316846592),
         ("8 gal/kft3", "Ratio", 8 * 231 * 0.0254**3 / 28.316846592),
         ("1 kJ/kgK", "HeatCapacity", 1000.0),
@@ -84,7 +92,8 @@ from granum.particles import reynolds_number, terminal_velocity
         ("1\u00a0200\u00a0kg/h", "MassFlow", 1 / 3),
         ("1,200.5 kg/h", "MassFlow", 1200.5 / 3600),
         ("1.200,5 kg/h", "MassFlow", 1200.5 / 3600),
-        ("1,200 kg/h", "MassFlow", 1.2 / 3600),
+        ("0,200 kg/h", "MassFlow", 0.2 / 3600),
+        ("1,20 kg/h", "MassFlow", 1.2 / 3600),
         ("\u22125 degC", "Temperature", 268.15),
         ("1.07 × 10⁸ Pa", "Pressure", 1.07e8),
         ("2 × 10⁻³ m", "Length", 2e-3),
@@ -95,6 +104,51 @@ from granum.particles import reynolds_number, terminal_velocity
 )
 def test_text_becomes_si(text: str, kind: str, expected: float) -> None:
     assert units.read_quantity(text, KINDS[kind], "x") == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "expected"),
+    [
+        ("0.030 kg H2O/kg dry air", "HumidityRatio", 0.03),
+        ("0.02 lb water/lb dry air", "HumidityRatio", 0.02),
+        ("1.51 kg H2O/h.m2", "MassFlux", 1.51 / 3600),
+        ("0.38 kg eau/kg matière sèche", "MoistureDryBasis", 0.38),
+        ("21.5 kg/100 kg water", "MassRatio", 0.215),
+        ("20 kg de vapeur/h", "MassFlow", 20 / 3600),
+        ("12 % ", "MassFraction", 0.12),
+        ("106/286.2", "Ratio", 106 / 286.2),
+        ("1.5/3", "Ratio", 0.5),
+    ],
+)
+def test_units_bear_what_they_are_units_of(text: str, kind: str, expected: float) -> None:
+    assert units.read_quantity(text, KINDS[kind], "x") == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("0.03 kg water/kg humid air", "HumidityRatio"),
+        ("0.3 kg water/kg wet solid", "MoistureDryBasis"),
+        ("0.3 kg water/kg dry solid", "MassFraction"),
+        ("3 kg dry air/s", "MassFlow"),
+    ],
+)
+def test_another_basis_is_not_read_over(text: str, kind: str) -> None:
+    with pytest.raises(UnitError, match="not known"):
+        units.read_quantity(text, KINDS[kind], "x")
+
+
+def test_three_digits_behind_a_comma_are_thousands_to_some_and_decimals_to_others() -> None:
+    flow = KINDS["MassFlow"]
+    with pytest.raises(InputError, match=r"'1,200 kg/h' may be 1200 or 1\.200"):
+        units.read_quantity("1,200 kg/h", flow, "x")
+    with pytest.raises(InputError, match="may be"):
+        units.read_quantity("10,000 USD", KINDS["Cost"], "x")
+    assert units.read_quantity("$10,000", KINDS["Cost"], "x") == 1e4
+    with language("fr"):
+        assert units.read_quantity("1,200 kg/h", flow, "x") == pytest.approx(1.2 / 3600)
+        with pytest.raises(InputError, match="10000 ou 10"):
+            units.read_quantity("10,000 USD", KINDS["Cost"], "x")
 
 
 @pytest.mark.parametrize(

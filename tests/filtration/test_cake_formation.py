@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy
 
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.filtration.formulas.cake_growth import standard_cake_formation_time
 from granum.filtration.lab_tests.cake_formation import CakeFormationTest
 from granum.filtration.selection import filtering_class
@@ -51,6 +51,11 @@ def test_a_thicker_slurry_more_pressure_and_an_opener_cake_are_quicker():
         assert standard_cake_formation_time(alpha, W, void, density, eta, R, 2e5) == pytest.approx(0.5 * time)
         assert standard_cake_formation_time(alpha, W, void + 0.05, density, eta, R) < time
         assert standard_cake_formation_time(alpha, W, void, density, eta, 2.0 * R) > time
+
+
+def test_clear_liquid_forms_no_cake():
+    with pytest.raises(ApplicabilityError, match="no cake"):
+        standard_cake_formation_time(1e10, 0.0, 0.5, 3000.0, 1e-3)
 
 
 def test_cakes_of_an_integration_give_the_truth_back():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import granum as gr
-from granum.core.errors import InputError
+from granum.core.errors import GranumError, InputError
 
 
 def pressed(key: str, **inputs: object):
@@ -70,6 +70,12 @@ def test_each_press_has_its_own_pressures() -> None:
         assert bool(found.ok) == ok, (key, bar)
     with pytest.raises(InputError, match="compaction"):
         gr.alone("filtration.tower_press", compaction_exponent=2.0)
+
+
+def test_an_exponent_without_a_pressure_to_yield_to_is_refused() -> None:
+    """It had been ignored, all checks green."""
+    with pytest.raises(GranumError, match="squeezing_pressure"):
+        gr.alone("filtration.membrane_press", compaction_exponent=0.1)
 
 
 def test_wash_and_turn_of_a_tower_by_hand() -> None:

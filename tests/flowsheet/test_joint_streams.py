@@ -96,6 +96,12 @@ SLURRY = {
     "streams.stirred_tank": {"mass": 100.0},
 }
 WASHED = {
+    "settling.countercurrent_decantation": {
+        "stage_count": 3.0,
+        "area": 20.0,
+        "solids_mass_fraction_underflow": 0.3,
+        "settling": {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.02},
+    },
     "centrifuges.peeler": BASKET
     | {"cake_radius": 0.32, "basket_height": 0.5, "radius_inner": 0.28, "basket_number": 4.0},
     "centrifuges.pusher": BASKET | {"cake_radius": 0.36, "basket_length": 0.5},

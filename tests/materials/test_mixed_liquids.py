@@ -2,9 +2,11 @@
 
 import pytest
 
+from granum.core.errors import ApplicabilityError
 from granum.materials import (
     dynamic_viscosity_glycerol_water,
     fluid,
+    kinematic_viscosity_walther,
     seawater_conductivity,
     seawater_density,
     seawater_heat_capacity,
@@ -64,3 +66,54 @@ def test_a_grain_falls_in_a_named_liquid():
     assert terminal_velocity_stokes(**grain, fluid="glycerol at 20 °C") < terminal_velocity_stokes(
         **grain, fluid="seawater at 20 °C"
     )
+
+
+@pytest.mark.parametrize(
+    ("oil", "celsius", "printed", "within"),
+    [
+        # mm²/s, opened: a table of pump makers, measurements of others in a public table (see oils.toml)
+        ("olive oil", 20, 91.5, 0.08),
+        ("sunflower oil", 20, 65, 0.05),
+        ("sunflower oil", 40, 31, 0.03),
+        ("rapeseed oil", 25, 63, 0.04),
+        ("rapeseed oil", 4, 178.9, 0.04),
+        ("soybean oil", 0, 184.9, 0.03),
+        ("soybean oil", 25, 55, 0.04),
+        ("soybean oil", 100, 7.5, 0.07),
+        ("palm oil", 60, 20, 0.06),
+    ],
+)
+def test_oils_at_temperatures_between_and_beyond_their_two(oil, celsius, printed, within):
+    known = fluid(oil)
+    T = f"{celsius} degC"
+    assert 1e6 * known.liquid_viscosity(T) / known.liquid_density(T) == pytest.approx(printed, rel=within)
+
+
+@pytest.mark.parametrize(
+    ("oil", "low", "high"),  # relative density at 20 °C by the Codex (recalled), of water
+    [("olive oil", 0.910, 0.916), ("sunflower oil", 0.918, 0.923), ("soybean oil", 0.919, 0.925)],
+)
+def test_oils_are_as_dense_as_their_standard_allows(oil, low, high):
+    assert low < fluid(oil).liquid_density("20 degC") / fluid("water").liquid_density("20 degC") < high
+
+
+@pytest.mark.parametrize(
+    ("cold", "middle", "hot"),
+    [(153, 34, 9.1), (250, 50.5, 12.6), (18.6, 6.3, 2.4), (107, 23.3, 6.4), (171, 31, 7.5), (310, 44.2, 9.4)],
+)
+def test_mineral_oils_lie_on_the_line_of_the_chart(cold, middle, hot):
+    # Engineering Tribology (2011), table 2.3, opened: mPa s at 30, 60 and 100 °C; densities of a usual oil
+    rho = {t: 0.89 - 0.00065 * t for t in (30, 60, 100)}
+    nu = kinematic_viscosity_walther(
+        "60 degC", "30 degC", f"{cold / rho[30]} cSt", "100 degC", f"{hot / rho[100]} cSt"
+    )
+    assert 1e6 * nu * rho[60] == pytest.approx(middle, rel=0.025)
+
+
+def test_mineral_oil_of_a_grade():
+    oil = fluid("mineral oil")
+    nu = [oil.liquid_viscosity(f"{t} degC") / oil.liquid_density(f"{t} degC") for t in (0, 20, 40, 100)]
+    assert nu == sorted(nu, reverse=True)
+    assert 1e6 * nu[2] == pytest.approx(46.0, rel=1e-6)
+    with pytest.raises(ApplicabilityError, match="above the lower"):
+        kinematic_viscosity_walther("20 degC", "40 degC", "46 cSt", "40 degC", "6.8 cSt")

@@ -93,3 +93,42 @@ def test_a_study_of_a_card_takes_a_fluid():
     outcome = study.run()
     whole = gr.particles.terminal_velocity("50 um", 2630.0, fluid="water at 20 °C")
     assert float(outcome.column("terminal_velocity")[0]) == pytest.approx(float(whole), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "density", "viscosity"),
+    [  # Melinder's secondary working fluids as CoolProp 8 has them (opened); viscosity in mPa s
+        ("10 % sodium chloride at 20 °C", 1070.6, 1.193),
+        ("brine 20 % at 0 °C", 1156.7, 2.696),
+        ("chlorure de sodium à 20 % à 30 °C", 1142.9, 1.237),
+        ("10 % CaCl2 brine at 20 °C", 1085.9, 1.298),
+        ("calcium chloride 25 % at 20 °C", 1229.1, 2.502),
+        ("200 g/kg calcium chloride in water at 30 °C", 1176.5, 1.550),
+    ],
+)
+def test_brines_by_their_share(words, density, viscosity):
+    state = StatedFluid.read(words)
+    assert state.is_liquid
+    assert float(state.density()) == pytest.approx(density, rel=5e-3)
+    assert 1e3 * float(state.viscosity()) == pytest.approx(viscosity, rel=0.055)
+
+
+def test_a_brine_boils_hotter_than_water_and_an_oil_does_not_boil():
+    # 25 % of calcium chloride boils at some 109 °C (recalled)
+    assert StatedFluid.read("25 % calcium chloride at 105 °C").is_liquid
+    assert not StatedFluid.read("25 % calcium chloride at 115 °C").is_liquid
+    assert StatedFluid.read("olive oil at 150 °C").is_liquid
+    assert not StatedFluid.read("argon at 20 °C").is_liquid
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("brine at 20 °C", "share of the solution"),
+        ("100 % sucrose at 20 °C", "below 100 %"),
+        ("10 % quartzy at 20 °C", "not known"),
+    ],
+)
+def test_what_is_no_solution_is_told(words, message):
+    with pytest.raises(InputError, match=message):
+        StatedFluid.read(words)

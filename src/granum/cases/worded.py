@@ -19,7 +19,7 @@ from granum.cases.tables import as_toml
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.stand_ins import stands_for
+from granum.core.stand_ins import not_varied, stands_for
 from granum.core.written import interval
 
 _LIMIT = re.compile(r"^(.*?)(<=|>=|<|>)(.*)$")
@@ -55,9 +55,8 @@ def study_text(
     thing: Any = registry.find(key)
     if thing.card.sort in ("formula", "law", "procedure"):
         known = thing.card.inputs
-        for name, value in words.items():
-            fixed = not any(mark in value for mark in ("..", "±", "+-"))
-            if name == "fluid" or (fixed and stands_for(name, known)):
+        for name in words:
+            if name == "fluid" or stands_for(name, known):
                 continue  # in place of the properties that the card asks of it
             if name.partition(".")[0].partition("[")[0] not in known:
                 raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=key))
@@ -65,7 +64,10 @@ def study_text(
     spreads = {
         name: _pair(name, value, "±") for name, value in words.items() if "+-" in value or "±" in value
     }
+    asked = {p.name for p in thing.card.parameters}
     for name in (*ranges, *spreads):
+        if told := not_varied(name, asked, _(" for {owner}").format(owner=key)):
+            raise told
         if name.partition(".")[0] in OWN and name.count(".") > 1:
             raise InputError(
                 _("'{name}' belongs to a material: a study cannot vary it, give it one value.").format(

@@ -67,9 +67,16 @@ _DENSE = {"particle_density", "solid_density", "liquid_density", "crystal_densit
 _LIGHTEST = 25.0  # kg/m³; what is typed without a unit below it was meant in g/cm³ or relative to water
 
 
-def _not_a_specific_gravity(text: str, parameter: Parameter, where: str) -> None:
-    """Refuses a density that was typed without a unit and is that of a gas."""
-    found = units.read_number(text)
+def not_a_specific_gravity(given: Any, parameter: Parameter, where: str = "") -> None:
+    """Refuses the density of a solid or liquid that was given without a unit and is that of a gas."""
+    if parameter.name not in _DENSE:
+        return
+    if isinstance(given, str):
+        doubtful = units.has_unit(given) or units.thousands_or_decimals(given)
+        found = None if doubtful else units.read_number(given)
+    else:
+        plain = isinstance(given, (int, float)) and not isinstance(given, bool)
+        found = (float(given), "") if plain else None
     if found is None or not 0.0 < found[0] < _LIGHTEST:
         return
     message = _(
@@ -104,8 +111,7 @@ def convert(value: Any, parameter: Parameter, where: str = "", several: bool = F
     kind, coldest = parameter.kind, parameter.coldest
     bare = not given.is_quantity(value) and not (isinstance(value, str) and units.has_unit(value))
     if isinstance(value, str):
-        if bare and parameter.name in _DENSE:
-            _not_a_specific_gravity(value, parameter, where)
+        not_a_specific_gravity(value, parameter, where)
         read = (
             units.read_series if parameter.series else units.read_values if several else units.read_quantity
         )

@@ -16,7 +16,7 @@ import numpy as np
 
 from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
-from granum.core.conversion import Binder, convert, is_tracer
+from granum.core.conversion import Binder, convert, is_tracer, not_a_specific_gravity
 from granum.core.docstrings import CompletedDoc
 from granum.core.i18n import _
 from granum.core.notices import describe
@@ -115,6 +115,10 @@ def _declare(
         if not binder:
             binder.append(Binder.of(cls.card.key, cls.card.parameters))  # type: ignore[attr-defined]
         given, origins = binder[0].resolved(args, kwargs)
+        if sort != "law":  # a bare number of a case file was typed, as that of a command is
+            owner = _(" for {owner}").format(owner=cls.card.key)  # type: ignore[attr-defined]
+            for p in cls.card.parameters:  # type: ignore[attr-defined]
+                not_a_specific_gravity(given.get(p.name), p, owner)
         original(self, **binder[0].bind(args, given))
         if origins and sort == "lab test":
             object.__setattr__(self, "origins", tuple(origins.items()))

@@ -41,6 +41,8 @@ _BY_DENSITY = {  # name: the input it stands for, its kind, the power of the den
 
 _DESIGNS: dict[tuple[str, ...], Callable[[str, Any], Mapping[str, Any]]] = {}
 
+_ROUND: set[tuple[str, ...]] = set()
+
 _BY_DIAMETER = {"mass_flow": "mass_flux", "volume_flow": "superficial_velocity"}  # over the cross-section
 
 
@@ -49,6 +51,28 @@ def designs(lengths: tuple[str, ...], of: Callable[[str, Any], Mapping[str, Any]
     lengths from the name and the diameter. Whoever declares inputs with these lengths says so.
     """
     _DESIGNS[lengths] = of
+
+
+def circle(*beside: str) -> None:
+    """Let ``diameter`` stand for the ``area`` of what asks for these inputs beside it: it is round. Whoever
+    declares such a piece of equipment says so.
+    """
+    _ROUND.add(beside)
+
+
+def not_varied(name: str, known: Container[str], where: str = "") -> InputError | None:
+    """Why a study cannot vary a name that stands for an input; None of other names."""
+    wanted = stands_for(name, known)
+    if wanted is None:
+        return None
+    return InputError(
+        _(
+            "'{name}' stands in place of '{wanted}'{where} and holds one value: a study varies "
+            "'{wanted}' itself."
+        ).format(name=name, wanted=wanted, where=where),
+        name=name,
+        did_you_mean=wanted,
+    )
 
 
 def _designed(known: Container[str]) -> tuple[str, ...] | None:
@@ -66,12 +90,21 @@ def stands_for(name: str, known: Container[str]) -> str | None:
     if name == "standard":
         lengths = _designed(known)
         return lengths[0] if lengths else None
-    if name == "diameter" and "area" in known and "underflow_concentration" in known:
-        return "area"  # of a round thickener
+    if name == "diameter" and "area" in known and any(all(b in known for b in own) for own in _ROUND):
+        return "area"
+    if name in _BY_DIAMETER and _BY_DIAMETER[name] in known and "diameter" in known:
+        return _BY_DIAMETER[name]
+    if name in (*_BY_DIAMETER, "diameter") and _in_a_vessel(known):
+        return "superficial_velocity"
     if name in _BY_DIAMETER:
-        return _BY_DIAMETER[name] if _BY_DIAMETER[name] in known and "diameter" in known else None
+        return None
     wanted = _BY_DENSITY[name][0] if name in _BY_DENSITY else name.replace("diameter", "radius")
     return wanted if wanted in known else None
+
+
+def _in_a_vessel(known: Container[str]) -> bool:
+    """Whether a flow and a diameter stand for a velocity: nothing else there is called so."""
+    return "superficial_velocity" in known and not any(n in known for n in ("radius", "area", "mass_flux"))
 
 
 @dataclass
@@ -101,6 +134,8 @@ class StandIns:
                 self._standard()
             elif name in _BY_DENSITY:
                 self._by_density(name, wanted)
+            elif wanted == "superficial_velocity" and name not in _BY_DENSITY:
+                self._over_section(name)
             elif name in _BY_DIAMETER:
                 kind = KINDS["MassFlow" if name == "mass_flow" else "VolumeFlow"]
                 section = math.pi / 4.0 * self._needed(name, "diameter") ** 2
@@ -112,6 +147,24 @@ class StandIns:
             else:
                 across = _number(self.values[name], KINDS["Length"], name)
                 self._put(name, wanted, across / 2.0, _("half the diameter"))
+
+    def _over_section(self, name: str) -> None:
+        """A flow over the cross-section of a vessel, whose diameter the card itself may not ask for."""
+        if name not in self.values:
+            return  # the diameter, taken with its flow
+        flow = next((word for word in _BY_DIAMETER if word in self.values), None)
+        if flow is None or "diameter" not in self.values:
+            other = "diameter" if name in _BY_DIAMETER else "volume_flow"
+            message = _("'{name}' needs '{other}' beside it.")
+            raise InputError(message.format(name=name, other=other), name=other)
+        across = _number(self.values["diameter"], KINDS["Length"], "diameter")
+        if "diameter" not in self.known:
+            self.values.pop("diameter")
+        kind = KINDS["MassFlow" if flow == "mass_flow" else "VolumeFlow"]
+        through = _number(self.values[flow], kind, flow) / (math.pi / 4.0 * across**2)
+        if flow == "mass_flow":
+            through = through / self._density(flow, "superficial_velocity")
+        self._put(flow, "superficial_velocity", through, _("flow over the cross-section of the diameter"))
 
     def _put(self, name: str, wanted: str, value: Any, origin: str) -> None:
         if wanted in self.values or self.known[wanted] < self.given_by_place:
@@ -128,12 +181,15 @@ class StandIns:
         """``wanted`` as ``name`` times the density, or over it, by the density among the inputs."""
         kind, power = _BY_DENSITY[name][1:]
         origin = _("kinematic viscosity times density") if power > 0 else _("mass flux over density")
+        by = self._density(name, wanted)
+        self._put(name, wanted, _number(self.values[name], kind, name) * by**power, origin)
+
+    def _density(self, name: str, wanted: str) -> Any:
         density = next((n for n in _DENSITIES if n in self.known), None)
         if density is None:
             message = _("{owner} asks for no density: give '{wanted}' in place of '{name}'.")
             raise InputError(message.format(owner=self.owner, wanted=wanted, name=name), name=name)
-        by = self._needed(name, density)
-        self._put(name, wanted, _number(self.values[name], kind, name) * by**power, origin)
+        return self._needed(name, density)
 
     def _needed(self, name: str, other: str) -> Any:
         value = self.value_of(other)

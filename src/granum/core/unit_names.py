@@ -104,6 +104,16 @@ _SPELLINGS = {
     "mm H2O": "mmH2O",
     "mm WC": "mmH2O",
     "mm water": "mmH2O",
+    "cm H2O": "cmH2O",
+    "m H2O": "meter_H2O",
+    "cm Hg": "cmHg",
+    "cu. m": "m^3",
+    "cu m": "m^3",
+    "r.p.m.": "rpm",
+    "MLD": "megaliter/day",
+    "gpl": "g/L",
+    "W/mK": "W/(m*K)",
+    "W/(mK)": "W/(m*K)",
     "in. w.g.": "inH2O",
     "in. W.C.": "inH2O",
     "in. w.c.": "inH2O",
@@ -146,6 +156,8 @@ ELSE = {
     "CV": "metric_horsepower",
     "ch": "metric_horsepower",
     "PS": "metric_horsepower",
+    "µ": "um",
+    "μ": "um",
 }
 # volumes of gas as if it were at some standard state
 _STANDARD_GAS = re.compile(
@@ -153,6 +165,69 @@ _STANDARD_GAS = re.compile(
 )
 # read so only where a temperature is due
 DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}
+
+
+_WATER = ("h2o", "water", "moisture", "vapor", "vapour", "water vapor", "steam", "eau", "vapeur", "humidité")
+_DISSOLVED = ("solute", "salt", "solid", "solids", "soluté", "sel", "solide", "anhydrous")
+_DRY = (
+    "dry air",
+    "dry gas",
+    "d.a.",
+    "dry solid",
+    "dry solids",
+    "dry matter",
+    "dry basis",
+    "bone dry solid",
+    "ds",
+    "dm",
+)
+_SEC = ("air sec", "gaz sec", "solide sec", "matière sèche", "produit sec", "ms", "base sèche", "dry product")
+_WHOLE = (
+    "wet solid",
+    "wet solids",
+    "wet material",
+    "wet basis",
+    "solution",
+    "slurry",
+    "total",
+    "suspension",
+    "mixture",
+)
+_HUMIDE = ("solide humide", "produit humide", "base humide", "mélange", "wet product")
+_OF_WHAT = re.compile(
+    r"(?<![A-Za-z])(kg|mg|g|t|lbm?|kmol|mol)\s+(?:of\s+|de\s+|d['’])?"
+    r"((?!per\b)[^\W\d_][\w.]*(?:\s(?!per\b)[^\W\d_][\w.]*)*)(?=\s*(?:[/*·)(]|$|\bper\b))"
+)
+# what the ratio of each kind may be told per
+_PER = {
+    "humidity ratio": (*_DRY, *_SEC),
+    "moisture, dry basis": (*_DRY, *_SEC),
+    "mass ratio": (*_DRY, *_SEC, *_WATER, "solvent", "solvant"),
+    "mass fraction": (*_WHOLE, *_HUMIDE),
+    "moisture, wet basis": (*_WHOLE, *_HUMIDE),
+}
+
+
+def without_substances(unit: str, kind: str) -> str:
+    """A unit without the substances that books set behind its masses, where they say what the kind says too;
+    else as it is.
+
+    >>> (
+    ...     without_substances("kg H2O/kg dry air", "humidity ratio"),
+    ...     without_substances("lb water/h", "mass flow"),
+    ... )
+    ('kg/kg', 'lb/h')
+    >>> without_substances("kg water/kg wet solid", "moisture, dry basis")
+    'kg water/kg wet solid'
+    """
+    if len(unit) > LONGEST_UNIT or not _OF_WHAT.search(unit):
+        return unit
+    told = [(m.start(), m[2].lower()) for m in _OF_WHAT.finditer(unit)]
+    below = unit.find("/") if "/" in unit else len(unit)
+    allowed = all(
+        word in _WATER + _DISSOLVED if at < below else word in _PER.get(kind, ()) for at, word in told
+    )
+    return _OF_WHAT.sub(r"\1", unit) if allowed else unit
 
 
 @cache
@@ -189,6 +264,8 @@ def parse_unit(text: str) -> Any:
             unit=text,
         )
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
+    spelled = re.sub(r"\b(N|Pa)-s\b", r"\1*s", spelled)
+    spelled = re.sub(r"\bm(\^?2)h\b", r"m\1*h", spelled)  # L/m2h
     spelled = re.sub(r"\b([kM]?N)m\b", r"\1*m", spelled)  # or else a nautical mile
     spelled = re.sub(r"\b(ft|in|lbf?)-(ft|in|lbf?)\b", r"\1*\2", spelled)
     # gal/1000 ft3, lb per 1000 gal

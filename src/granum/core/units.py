@@ -16,11 +16,20 @@ import numpy as np
 
 from granum.core.errors import InputError, UnitError
 from granum.core.given import shown
-from granum.core.i18n import _
+from granum.core.i18n import _, current_language
 from granum.core.kinds import Kind
-from granum.core.unit_names import DEGREES, ELSE, LONGEST_UNIT, fits, parse_unit, registry, same_dimension
+from granum.core.unit_names import (
+    DEGREES,
+    ELSE,
+    LONGEST_UNIT,
+    fits,
+    parse_unit,
+    registry,
+    same_dimension,
+    without_substances,
+)
 from granum.core.unit_table import counts_angles, rows
-from granum.core.written import apart, interval, mixed, read_number, tidy
+from granum.core.written import apart, interval, mixed, read_number, thousands_or_decimals, tidy
 
 
 def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
@@ -46,7 +55,7 @@ def affine_by_pint(unit: str, kind_unit: str) -> tuple[float, float]:
             r"[A-Za-z]\s*[-*·. ]\s*[A-Za-z]", unit
         )  # ft-lb, kg m: a force over a length
         meant = [text for text in readings if product and text != unit and fits(text, kind_unit)]
-        other = re.sub(r"[A-Za-z]+", lambda word: ELSE.get(word[0], word[0]), unit)
+        other = re.sub(r"[A-Za-zµμ]+", lambda word: ELSE.get(word[0], word[0]), unit)
         meant += [other] if other != unit and fits(other, kind_unit) else []
         if not meant:
             parse_unit(unit)  # says so where the unit itself is not known
@@ -108,6 +117,7 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
         unit = re.sub(r"\bN\s?(?=m\s?(\^?3|³))", "", unit)
     if kind.unit == "delta_degC" and unit.strip() in ("degC", "°C", "K"):
         return value
+    unit = without_substances(unit, kind.name)
     try:
         factor, offset = _conversion(unit, kind)
     except UnitError as problem:
@@ -152,6 +162,14 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
     0.0012
     """
     found = read_number(text)
+    readings = thousands_or_decimals(text)
+    if readings and (current_language() == "en" or kind.unit.startswith("USD")):
+        message = _("'{name}' = '{text}' may be {whole} or {decimal}: write it without the comma.")
+        raise InputError(
+            message.format(name=name or kind.name, text=shown(text), whole=readings[0], decimal=readings[1]),
+            name=name or kind.name,
+            value=shown(text),
+        )
     try:
         if found is not None:
             number, unit = found
@@ -300,8 +318,6 @@ def pretty_unit(unit: str) -> str:
     """A unit as people print it: ``um`` → ``µm``, ``kg/m^3`` → ``kg/m³``; in French ``tonne/day`` →
     ``t/j``.
     """
-    from granum.core.i18n import current_language
-
     printed = _PRETTY | _FRENCH if current_language() == "fr" else _PRETTY
     text = re.sub(r"[A-Za-z_]+", lambda m: printed.get(m.group(), m.group()), unit)
     text = re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_SUPERSCRIPT), text)
@@ -475,8 +491,6 @@ def ten_to(power: int) -> str:
 
 def decimal(text: str) -> str:
     """The text of a number with the decimal mark of the current language."""
-    from granum.core.i18n import current_language
-
     text = text.replace("-", "\u2212")
     return text.replace(".", ",") if current_language() == "fr" else text
 

@@ -13,11 +13,12 @@ _POWER = re.compile(r"(?<=\d)\s*[×x·*]\s*10(?:\^?([+-]?\d+)|([⁺⁻]?[⁰¹²
 _RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 _GROUPED = r"[1-9]\d{0,2}(?: \d{3})+(?![\d/])"
 _BOTH = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.\d+|(?:\.\d{3})+,\d+)(?![\d.,])"  # 1,200.5 and 1.200,5
+_DIVIDED = r"\d+(?:\.\d+)?/[1-9]\d*\.\d+(?![\d.,])|\d+\.\d+/[1-9]\d*(?![\d.,])"  # 106/286.2
 _APART_IN_THREES = re.compile(rf"\s*([+-]?(?:{_GROUPED}|[1-9]\d{{0,2}}(?:,\d{{3}}){{2,}}(?![\d.,])))")
 _NUMBER = re.compile(
     (
         rf"\s*([+-]?(?:(?:\d+ "
-        rf")?\d+/[1-9]\d*(?![\d.,])|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*"
+        rf")?\d+/[1-9]\d*(?![\d.,])|{_DIVIDED}|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*"
     ),
     re.DOTALL | re.ASCII,
 )
@@ -84,6 +85,23 @@ def apart(text: str) -> str:
     """
     found = _APART_IN_THREES.match(tidy(text))
     return found[1] if found else ""
+
+
+_THREE_BEHIND = re.compile(r"\s*\$?([+-]?[1-9]\d{0,2}),(\d{3})(?![\d.,eE])")
+
+
+def thousands_or_decimals(text: str) -> tuple[str, str] | None:
+    """Both readings of a number with three digits behind its only comma; None of every other text.
+
+    >>> (
+    ...     thousands_or_decimals("2,500 kg/m3"),
+    ...     thousands_or_decimals("0,125 m"),
+    ...     thousands_or_decimals("2,50 m"),
+    ... )
+    (('2500', '2.500'), None, None)
+    """
+    found = _THREE_BEHIND.match(tidy(text))
+    return (found[1] + found[2], f"{found[1]}.{found[2]}") if found and "$" not in found[0] else None
 
 
 def mixed(text: str) -> tuple[str, str] | None:

@@ -242,7 +242,6 @@ from granum.filtration.formulas.suction import (
 from granum.filtration.formulas.washing import (
     axial_dispersion_cake as axial_dispersion_cake,
     dispersion_number as dispersion_number,
-    solute_remaining_countercurrent as solute_remaining_countercurrent,
     solute_remaining_dahlstrom as solute_remaining_dahlstrom,
     solute_remaining_dispersion as solute_remaining_dispersion,
     solute_remaining_reslurry as solute_remaining_reslurry,

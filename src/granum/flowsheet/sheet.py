@@ -11,6 +11,7 @@ import equinox as eqx
 
 from granum.core.errors import CaseError, together, unknown_name
 from granum.core.i18n import _
+from granum.core.stand_ins import not_varied
 from granum.flowsheet.plan import Block, Link, plan
 from granum.streams.stream import Stream
 from granum.streams.units import Unit
@@ -186,7 +187,10 @@ class Flowsheet(eqx.Module):
         for name in rest:
             fields = getattr(thing, "__dataclass_fields__", {})
             if name not in fields:
-                raise unknown_name(_("Parameter"), name, fields, _("of '{owner}'").format(owner=head))
+                asked = [p.name for p in thing.card.parameters] if hasattr(thing, "card") else list(fields)
+                if told := not_varied(name, asked, " " + _("of '{owner}'").format(owner=head)):
+                    raise told
+                raise unknown_name(_("Parameter"), name, asked, _("of '{owner}'").format(owner=head))
             thing = getattr(thing, name)
         return (head, *rest)
 

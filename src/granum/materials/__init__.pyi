@@ -47,7 +47,9 @@ from granum.materials.formulas.correlations import (
     correlation_vant_hoff as correlation_vant_hoff,
     correlation_vogel as correlation_vogel,
     correlation_wagner as correlation_wagner,
+    correlation_walther as correlation_walther,
     correlation_watson as correlation_watson,
+    kinematic_viscosity_walther as kinematic_viscosity_walther,
 )
 from granum.materials.formulas.diffusivity import (
     diffusivity_fuller as diffusivity_fuller,

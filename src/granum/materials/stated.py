@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
@@ -13,10 +14,23 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.units import show
+from granum.materials.correlation import Correlation, Missing, Owner
 from granum.materials.fluids import Fluid
 from granum.materials.library import session
 
 _WORDS = re.compile(r"^\s*(?P<name>.+?)\s+(?:at|à|@)\s+(?P<state>.+?)\s*$")
+_SOLUTION_WORDS = re.compile(r"^\s*(?P<name>.*(?:%|g/kg).*?)\s+(?:at|à|@)\s+(?P<state>.+?)\s*$")
+_SHARE = r"(?P<share>[\d.,]+\s*(?:wt\s*%|%|g/kg|kg/kg))"
+_SOLUTIONS = [
+    re.compile(pattern, re.IGNORECASE)
+    for pattern in (
+        rf"^{_SHARE}\s+(?:of\s+|de\s+|d['’])?(?P<solute>.+)$",
+        rf"^(?P<solute>.+?)(?:\s*,|\s+of|\s+à|\s+at|\s+de)?\s+{_SHARE}$",
+    )
+]  # "20 % calcium chloride", "sodium chloride 10 %"
+_SOLVENT = re.compile(
+    r"\s+(?:in water|dans l['’]eau|brine|solution)$|^(?:brine of|saumure de)\s+", re.IGNORECASE
+)
 _PARTS = re.compile(r"\s*(?:;|,\s|\s(?:and|et)\s)\s*")
 
 
@@ -35,7 +49,7 @@ class StatedFluid(NamedTuple):
         and, if not 1 atm, its pressure.
         """
         if isinstance(given, str):
-            words = _WORDS.match(given)
+            words = _SOLUTION_WORDS.match(given) or _WORDS.match(given)
             if words is None:
                 raise _not_a_fluid(given)
             name, parts = words["name"], _PARTS.split(words["state"])
@@ -45,7 +59,7 @@ class StatedFluid(NamedTuple):
             raise _not_a_fluid(given)
         if not 1 <= len(parts) <= 2:
             raise _not_a_fluid(given)
-        known = name if isinstance(name, Fluid) else session().fluid(str(name))
+        known = name if isinstance(name, Fluid) else _solution(str(name)) or _pure(str(name))
         where = " " + _("of the 'fluid'")
         T = float(convert(parts[0], Parameter("temperature", KINDS["Temperature"]), where))
         P = (
@@ -58,9 +72,9 @@ class StatedFluid(NamedTuple):
     @property
     def is_liquid(self) -> bool:
         """Whether it is a liquid in this state."""
-        return self.fluid.condensable and self.temperature < float(
-            self.fluid.boiling_temperature(self.pressure)
-        )
+        if isinstance(self.fluid.vapor_pressure, Missing):  # a permanent gas, or an oil that does not boil
+            return not isinstance(self.fluid.liquid_density, Missing)
+        return self.temperature < float(self.fluid.boiling_temperature(self.pressure))
 
     @property
     def label(self) -> str:
@@ -145,6 +159,78 @@ def properties(
     return {
         name: float(ways[name](state)) for name in names if name in ways and name not in typed
     }, state.label
+
+
+def _pure(name: str) -> Fluid:
+    library = session()
+    if library.called(name, "fluid") is None and (solute := library.called(name, "solute")):
+        raise InputError(
+            _(
+                "'{name}' is a solute: say its share of the solution too, such as '10 % {solute} at 20 °C'."
+            ).format(name=name, solute=library.label(solute)),
+            name="fluid",
+        )
+    return library.fluid(name)
+
+
+def _solution(name: str) -> Fluid | None:
+    """A solution said by its share of solute, ``"20 % calcium chloride"``, as a fluid; None of other words.
+
+    Its vapor is that of its water, at a lowered pressure.
+    """
+    found = next(filter(None, (pattern.match(name) for pattern in _SOLUTIONS)), None)
+    if found is None:
+        return None
+    system = session().solute(_SOLVENT.sub("", found["solute"].strip()))
+    share = float(
+        convert(found["share"], Parameter("solute_mass_fraction", KINDS["MassFraction"]), _("of the 'fluid'"))
+    )
+    if share >= 1.0:
+        raise InputError(
+            _("A solution of {share} has no solvent: its share of solute must be below 100 %.").format(
+                share=found["share"]
+            ),
+            name="fluid",
+        )
+    solvent = system.solvent
+    ratio = share / (1.0 - share)
+    laws = {
+        "liquid_density": system.density_law,
+        "liquid_viscosity": system.viscosity_law,
+        "liquid_heat_capacity": system.heat_capacity_law,
+    }
+    made: dict[str, Any] = {
+        word: law.missing
+        if getattr(law, "is_missing", False)
+        else _of_solution(system, solvent, word, law, share)
+        for word, law in laws.items()
+    }
+    what = f"{system.name} {100.0 * share:.4g} %"
+    french = f"{system.french or system.name} {100.0 * share:.4g} %".replace(".", ",")
+    for word in ("liquid_conductivity", "surface_tension"):
+        made[word] = Missing(Owner.of_property(what, word.replace("_", " "), french))
+    made["vapor_pressure"] = _of_solution(
+        system,
+        solvent,
+        "vapor_pressure",
+        lambda T, _w: solvent.vapor_pressure.value(T) * system.activity_law(T, ratio),
+        share,
+    )
+    return dataclasses.replace(solvent, name=what, french=french, formula=system.formula, **made)
+
+
+def _of_solution(system: Any, solvent: Fluid, word: str, law: Any, share: float) -> Correlation:
+    """A property of a solution at one share of solute; its law tells its own range."""
+    limits = getattr(solvent, word)
+    return Correlation(
+        lambda T: law(T, share),
+        None,
+        1.0,
+        limits.low,
+        limits.high,
+        Owner.of_property(system.name, word.replace("_", " "), system.french),
+        getattr(getattr(law, "form", None), "source", "") or "",
+    )
 
 
 def _not_a_fluid(given: Any) -> InputError:

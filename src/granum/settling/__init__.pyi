@@ -35,6 +35,11 @@ from granum.settling.equipment.clarifiers import (
     Lamella as Lamella,
     RectangularClarifier as RectangularClarifier,
 )
+from granum.settling.equipment.decantation import (
+    CountercurrentDecantation as CountercurrentDecantation,
+    DecantationFigures as DecantationFigures,
+    Loads as Loads,
+)
 from granum.settling.equipment.flocculator import (
     Flocculated as Flocculated,
     Flocculator as Flocculator,
@@ -92,6 +97,9 @@ from granum.settling.formulas.coagulation import (
     charge_sharpness_jar as charge_sharpness_jar,
     residual_turbidity_neutralization as residual_turbidity_neutralization,
     residual_turbidity_parabola as residual_turbidity_parabola,
+)
+from granum.settling.formulas.decantation import (
+    soluble_loss_countercurrent as soluble_loss_countercurrent,
 )
 from granum.settling.formulas.flocculation import (
     aggregation_constant_shear as aggregation_constant_shear,

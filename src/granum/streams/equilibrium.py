@@ -70,7 +70,8 @@ class HumidMixture:
             raise ApplicabilityError(
                 _(
                     'The mixture needs a gas that carries the vapor of {liquid}: gases = ["dry air", '
-                    '"{liquid}"].'
+                    '"{liquid}"]. With superheated steam alone the two stand there too, and the feed says '
+                    'gas = {{ "{liquid}" = 1.0 }}.'
                 ).format(liquid=self.solvent)
             )
         # alone it saturates as in any gas

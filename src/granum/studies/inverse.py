@@ -14,6 +14,7 @@ from granum.core.errors import ApplicabilityError, ConvergenceError, InputError,
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.results import Result
+from granum.core.stand_ins import not_varied
 from granum.reports.quantities import value_text
 from granum.reports.sensitivity import TooLong, takes_arrays, values_at
 
@@ -81,9 +82,8 @@ def _asked(
         )
     p = next((q for q in card.parameters if q.name == name), None)
     if p is None:
-        raise unknown_name(
-            _("Input"), name, [q.name for q in card.parameters], _("for {owner}").format(owner=card.key)
-        )
+        names, where = [q.name for q in card.parameters], _("for {owner}").format(owner=card.key)
+        raise not_varied(name, names, f" {where}") or unknown_name(_("Input"), name, names, where)
     if p.kind is None or p.series or p.sort is int:
         raise InputError(
             _("'{name}' is no single quantity: it cannot be solved for.").format(name=name), name=name

@@ -23,6 +23,7 @@ from granum.core.conversion import Binder, convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
+from granum.core.stand_ins import not_varied
 from granum.streams.names import pretty
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
@@ -362,7 +363,8 @@ class FormulaSubject(Subject):
         name, index = split_index(path)
         known = {n: p for n, p in self.parameters.items() if p.kind is not None and p.sort is not int}
         if name not in known:
-            raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=self.thing.card.key))
+            where = _("for {owner}").format(owner=self.thing.card.key)
+            raise not_varied(name, known, f" {where}") or unknown_name(_("Input"), name, known, where)
         if (index is not None) != (known[name].series is not None):
             raise InputError(
                 _("'{name}' is a list: vary one element, as in '{name}[0]'.").format(name=name)

@@ -37,6 +37,7 @@ from granum.core.kinds import (
     VoidFraction,
 )
 from granum.core.limits import Limit
+from granum.numerics.smooth import safe_divide
 from granum.streams.cake_course import POINTS, Stage, still
 from granum.streams.cake_maker import CakeMaker
 from granum.streams.cakes import Filtered
@@ -368,7 +369,8 @@ class Peeler(SetCake):
         surface, cake = self.radius_inner**2, self.cake_radius**2
         # what drives is the liquid down to the mouth of the siphon, or through the heel to the wall
         drive = (mouth - surface) / (outer - surface)
-        loading, washing_flow = loading / drive, washing_flow * drive
+        loading = jnp.where(void > 0.0, loading / drive, 0.0)  # without solid there is no cake to wait for
+        washing_flow = washing_flow * drive
         washing = self.wash_ratio(feed, wash) * self.void_fraction * self.cake_volume / washing_flow
         falling = (
             spin_off_time(radius_inner=self.radius_inner, **case)
@@ -413,8 +415,7 @@ class Pusher(SetCake):
 
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
         void = self.void_flow(feed)
-        cake_flow = jnp.maximum(void / self.void_fraction, 1e-300)
-        stay = self.cake_volume / cake_flow
+        stay = safe_divide(self.cake_volume, void / self.void_fraction)  # of no cake none
         critical = filtrate_flow_critical(basket_height=self.basket_length, **self.case(feed))
         forming = (feed.liquid_volume_flow - void) / (self.feed_share * critical)
         washing = 0.0 if wash is None else wash.liquid_volume_flow / (self.wash_share * critical)

@@ -14,7 +14,7 @@ import numpy as np
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
-from granum.core.errors import CaseError
+from granum.core.errors import CaseError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
     Diffusivity,
@@ -321,7 +321,17 @@ class MembranePress(SqueezingFilter, Press):
     void_fraction_squeezed: VoidFraction
     _: KW_ONLY
     squeezing_pressure: PressureDrop | None = None
-    compaction_exponent: Annotated[Ratio, Within(0.0, 0.5)] = 0.0
+    compaction_exponent: Annotated[Ratio, Within(0.0, 0.5)] | None = None
+
+    def __check_init__(self) -> None:
+        if self.compaction_exponent is not None and self.squeezing_pressure is None:
+            raise InputError(
+                _(
+                    "The exponent of compaction tells how a cake yields to a 'squeezing_pressure' beyond "
+                    "that of the pump: give one, or leave the exponent out."
+                ),
+                name="compaction_exponent",
+            )
 
     limits: ClassVar[Limits] = (
         Press.limits
@@ -339,7 +349,8 @@ class MembranePress(SqueezingFilter, Press):
     @property
     def void_fraction_packed(self) -> Any:
         packed = 1.0 - self.void_fraction_squeezed
-        ratio = void_ratio(self.pressure_end, packed, self.pressure_drop, self.compaction_exponent, 0.0)
+        exponent = 0.0 if self.compaction_exponent is None else self.compaction_exponent
+        ratio = void_ratio(self.pressure_end, packed, self.pressure_drop, exponent, 0.0)
         return ratio / (1.0 + ratio)
 
     def measured(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from granum.core import formula
+import jax.numpy as jnp
+
+from granum.core import formula, impossible
 from granum.core.kinds import (
     CakeResistance,
     Concentration,
@@ -17,6 +19,7 @@ from granum.core.kinds import (
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 
 CENTIMETER, BAR = 0.01, 1e5
+NO_CAKE = "A filtrate without solid leaves no cake."
 
 
 @formula(
@@ -53,9 +56,11 @@ def standard_cake_formation_time(
     >>> round(standard_cake_formation_time(1e10, 100.0, 0.5, 3000.0, "1 mPa*s"), 6)
     112.5
     """
+    none = dry_cake_per_filtrate <= 0.0
+    impossible(none, dry_cake_per_filtrate, "dry_cake_per_filtrate", 0.0, jnp.inf, NO_CAKE)
     mass = (1.0 - void_fraction) * solid_density * cake_thickness
     return filtration_time_constant_pressure(
-        mass / dry_cake_per_filtrate,
+        mass / jnp.where(none, 1.0, dry_cake_per_filtrate),
         1.0,
         pressure_drop,
         dynamic_viscosity,

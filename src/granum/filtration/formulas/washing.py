@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula, impossible
+from granum.core import formula
 from granum.core.kinds import Diffusivity, Fraction, Length, PositiveNumber, Ratio, Speed
 from granum.porous import displacement
-
-TOO_LITTLE_LIQUOR = "Feed and wash must hold at least the liquor that leaves with the underflow."
 
 
 @formula(
@@ -113,31 +111,3 @@ def solute_remaining_reslurry(reslurry_ratio: Ratio, wash_stages: PositiveNumber
     0.04
     """
     return (1.0 + reslurry_ratio) ** (-wash_stages)
-
-
-@formula(
-    source="coe1916; richardson2002, eq. 10.16",
-    title="Solute lost by countercurrent decantation",
-    equation=r"F = \frac{1}{f\,\frac{w^N - 1}{w - 1} + w^N}",
-    typical={"wash_ratio": (1.0, 4.0), "wash_stages": (2.0, 6.0)},
-)
-def solute_remaining_countercurrent(
-    wash_ratio: Ratio, wash_stages: PositiveNumber, feed_liquor_ratio: PositiveNumber = 1.0
-) -> Fraction:
-    """Fraction of the solute that leaves with the last underflow of thickeners in a row, solid and wash going
-    against one another (countercurrent decantation, CCD).
-
-    The ratio is wash liquor per liquor of an underflow, the same from each thickener; ``feed_liquor_ratio``
-    is the liquor that comes with the feed over it. Liquors are mixed wholly, nothing dissolves or is
-    adsorbed.
-
-    >>> solute_remaining_countercurrent(wash_ratio=2.0, wash_stages=3)
-    0.06666666666666667
-    """
-    w, n, f = wash_ratio, wash_stages, feed_liquor_ratio
-    impossible(w + f < 1.0, f, "feed_liquor_ratio", 1.0 - w, jnp.inf, TOO_LITTLE_LIQUOR)
-    even = jnp.abs(w - 1.0) < 1e-9
-    safe = jnp.where(even, 2.0, w)
-    washed = safe**n
-    shares = jnp.where(even, n, (washed - 1.0) / (safe - 1.0))
-    return 1.0 / (f * shares + jnp.where(even, 1.0, washed))

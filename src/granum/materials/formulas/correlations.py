@@ -12,9 +12,11 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, watch
+from granum.core import formula, impossible, watch
 from granum.core.constants import ZERO_CELSIUS
-from granum.core.kinds import Number, Series, Temperature
+from granum.core.kinds import KinematicViscosity, Number, Series, Temperature
+
+TWO_TEMPERATURES = "The upper temperature has to lie above the lower one."
 
 Coefficients = Annotated[Number, Series("coefficients")]
 
@@ -25,6 +27,46 @@ def _horner(coefficients: Any, x: Any) -> Any:
     for i in reversed(range(coefficients.shape[0])):
         total = total * x + coefficients[i]
     return total
+
+
+@formula(
+    source="walther1931; astm341",
+    equation=r"\frac{\lg\lg(\nu + 0.7) - \lg\lg(\nu_1 + 0.7)}{\lg\lg(\nu_2 + 0.7) - \lg\lg(\nu_1 + 0.7)}"
+    r" = \frac{\lg(T/T_1)}{\lg(T_2/T_1)}\quad (\mathrm{mm^2/s})",
+    title="Kinematic viscosity of an oil (Walther)",
+    typical={
+        "temperature_lower": (300.0, 320.0),
+        "temperature_upper": (360.0, 380.0),
+        "kinematic_viscosity_lower": (2e-5, 5e-4),
+        "kinematic_viscosity_upper": (4e-6, 3e-5),
+    },
+    fitted={"kinematic_viscosity": (2e-6, 2e-2)},
+)
+def kinematic_viscosity_walther(
+    temperature: Temperature,
+    temperature_lower: Temperature,
+    kinematic_viscosity_lower: KinematicViscosity,
+    temperature_upper: Temperature,
+    kinematic_viscosity_upper: KinematicViscosity,
+) -> KinematicViscosity:
+    """Kinematic viscosity of an oil from those at two temperatures, such as the 40 and 100 °C of its data
+    sheet.
+
+    >>> nu = kinematic_viscosity_walther("20 degC", "40 degC", "46 cSt", "100 degC", "6.82 cSt")
+    >>> round(1e6 * nu, 1)
+    133.5
+    """
+    first, second = temperature_lower, temperature_upper
+    impossible(second <= first, second, "temperature_upper", first, jnp.inf, TWO_TEMPERATURES)
+    apart = jnp.where(first == second, 1.0, jnp.log(second / first))
+    one, other = _doubly(kinematic_viscosity_lower), _doubly(kinematic_viscosity_upper)
+    inside = one + (other - one) * jnp.log(temperature / first) / apart
+    return 1e-6 * (jnp.exp(jnp.exp(jnp.clip(inside, -30.0, 5.5))) - 0.7)
+
+
+def _doubly(viscosity: Any) -> Any:
+    """The doubly logarithmic scale of the chart; what is thinner than 0.31 mm²/s has no place on it."""
+    return jnp.log(jnp.log(jnp.maximum(1e6 * viscosity, 0.31) + 0.7))
 
 
 @formula(source="green2008, sec. 2", equation=r"y = \sum_i c_i T^i", title="Polynomial in kelvin")
@@ -294,3 +336,27 @@ def correlation_maier_kelley(temperature: Temperature, coefficients: Coefficient
     """
     c, T = jnp.asarray(coefficients), temperature
     return c[0] + c[1] * T + c[2] / T**2
+
+
+@formula(
+    source="walther1931; astm341",
+    equation=(
+        r"y = \nu\,[c_5 + c_6 (T - 273.15)],\quad \lg\lg(\nu + 0.7) = A - B\lg T,"
+        r"\quad \nu(c_1) = c_2,\ \nu(c_3) = c_4\ \mathrm{mm^2/s}"
+    ),
+    title="Walther form of the viscosity of an oil",
+)
+def correlation_walther(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Dynamic viscosity of an oil, Pa s, from its kinematic viscosity at two temperatures, and a density that
+    falls evenly.
+
+    The coefficients are the first temperature, K, and mm²/s there, the second, density at 0 °C and its
+    change per kelvin.
+
+    >>> oil = [313.15, 46.0, 373.15, 6.82, 885.0, -0.65]
+    >>> round(1e3 * correlation_walther(temperature="20 degC", coefficients=oil))
+    116
+    """
+    c, T = jnp.asarray(coefficients), temperature
+    nu = kinematic_viscosity_walther.function(T, c[0], 1e-6 * c[1], c[2], 1e-6 * c[3])
+    return nu * (c[4] + c[5] * (T - ZERO_CELSIUS))

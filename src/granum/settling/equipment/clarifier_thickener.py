@@ -11,7 +11,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 
-from granum.core import equipment
+from granum.core import equipment, stand_ins
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
@@ -64,6 +64,9 @@ class Sludge(NamedTuple):
     solid: Any
     liquid: Any
     temperature: Any
+
+
+stand_ins.circle("underflow_volume_flow", "height")
 
 
 @equipment(

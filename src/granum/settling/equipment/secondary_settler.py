@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import equipment
+from granum.core import equipment, stand_ins
 from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -56,6 +56,9 @@ class Layers(NamedTuple):
 
     tank: Tank
     concentration: Any
+
+
+stand_ins.circle("underflow_volume_flow", "height")
 
 
 @equipment(

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import equipment
+from granum.core import equipment, stand_ins
 from granum.core.i18n import _
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
 from granum.core.limits import Limit
@@ -41,6 +41,9 @@ class ThickenerFigures(NamedTuple):
     overflow_rate: Speed
     underflow_volume_flow: VolumeFlow
     overflow_concentration: Concentration
+
+
+stand_ins.circle("underflow_concentration")
 
 
 @equipment("thickener", source="yoshioka1957; coe1916", title="Thickener")
