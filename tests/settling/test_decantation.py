@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from tests.contracts.unit_cases import slurries, slurry
 
-from granum.core.errors import ApplicabilityError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.settling import soluble_loss_countercurrent
 from granum.settling.equipment.decantation import CountercurrentDecantation
 from granum.settling.velocities import Vesilind
@@ -105,6 +105,10 @@ def test_a_train_sized_from_its_duty_does_it():
         train.stage_count - 1.0, train.area, train.solids_mass_fraction_underflow, SINKING
     )
     feed, wash = pulp(2.0, 8.0), water(9.0)
+    with pytest.raises(InputError, match="more wash"):
+        CountercurrentDecantation.size(
+            underflow_liquid_ratio=1.5, feed_liquid_ratio=4.0, wash_ratio=0.5, soluble_loss=0.01, **duty
+        )
     figures = train.operate(feed=feed, wash=wash).figures
     assert (
         float(figures.soluble_loss) <= 0.01 < float(less.operate(feed=feed, wash=wash).figures.soluble_loss)

@@ -9,7 +9,10 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import equipment, stand_ins
+from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.kinds import (
+    KINDS,
     Area,
     Concentration,
     Fraction,
@@ -24,6 +27,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.core.units import format_number, show
 from granum.numerics.smooth import safe_divide
 from granum.settling.equipment.gravity import Outlets, concentration, floating_share, floats, over_axes
 from granum.settling.equipment.rakes import RAKED, THICKENER, raked
@@ -34,6 +38,7 @@ from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import AREA
 
 Settling = Annotated[Any, Law("settling_velocity")]
+MOST_STAGES = 50
 TRACE = 1e-12  # of the liquor of an underflow: a wash so small is none
 
 
@@ -233,15 +238,23 @@ class CountercurrentDecantation(Unit):
         by flux theory with a factor.
         """
         f = feed_liquid_ratio / underflow_liquid_ratio
-        stages = next(
-            (
-                n
-                for n in range(1, 51)
-                if float(soluble_loss_countercurrent(wash_ratio, float(n), f, mixing_efficiency))
-                <= soluble_loss
-            ),
-            50,
-        )
+        lost = {
+            n: float(soluble_loss_countercurrent(wash_ratio, float(n), f, mixing_efficiency))
+            for n in range(1, MOST_STAGES + 1)
+        }
+        stages = next((n for n, share in lost.items() if share <= soluble_loss), None)
+        if stages is None:
+            raise InputError(
+                _(
+                    "{stages} thickeners with a wash of {wash} liquors of an underflow still lose {least} "
+                    "of the solute: give more wash, a thicker underflow, or allow more than {wanted}."
+                ).format(
+                    stages=MOST_STAGES,
+                    wash=format_number(wash_ratio),
+                    least=show(min(lost.values()), KINDS["Fraction"]),
+                    wanted=show(soluble_loss, KINDS["Fraction"]),
+                )
+            )
         under = 1.0 / (1.0 / solid_density + underflow_liquid_ratio / liquid_density)
         met = [
             1.0 / (1.0 / solid_density + liquor / liquid_density)
