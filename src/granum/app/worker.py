@@ -88,6 +88,8 @@ def main() -> None:
     from granum.core.units import set_unit_system
 
     registry.everything()
+    if tasks.empty():  # nobody waits for it yet
+        TASKS["warm_up"](None, Tell())
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
     while True:
         name, payload, code, units, new = _next(tasks)
