@@ -65,7 +65,8 @@ def test_with_little_time_the_curve_has_fewer_points_over_the_same_range(
     whole = machine.curve(*choice)
     monkeypatch.setattr(machine_curves, "PATIENCE", 0.0)
     quick = machine.curve(*choice)
-    assert whole is not None and quick is not None
+    assert whole is not None
+    assert quick is not None
     assert (quick.x[0], quick.x[-1], quick.at) == (whole.x[0], whole.x[-1], whole.at)
     assert quick.at in quick.x
     assert quick.x.size == machine_curves.FEWEST < whole.x.size

@@ -377,7 +377,7 @@ def mark(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 
 def warm_up(_payload: Any, tell: Tell) -> bytes:
-    """Solve and draw a small machine: what every line needs from JAX is then there for the first one asked."""
+    """Solve and draw a small machine: what every line needs from JAX is then there for the first."""
     payload = {"case": case_text("settling.thickener", {})}
     run(payload, tell)
     return inside(payload, tell)
