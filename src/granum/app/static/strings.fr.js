@@ -250,6 +250,8 @@ export const french = {
   'by mass': 'en masse',
   'Particle sizes': 'Granulométrie',
   'optional': 'facultatif',
+  'A whole number is needed.': 'Il faut un nombre entier.',
+  'A whole number is needed: {allowed}.': 'Il faut un nombre entier : {allowed}.',
   'no limit exceeded': 'aucune limite dépassée',
   'Draw': 'Tracer',
   '{count} rows': '{count} lignes',
