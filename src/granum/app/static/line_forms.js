@@ -34,8 +34,17 @@ export function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'f
     setTyped((before) => ({ ...before, [key]: value }));
     typedIn.later(table, name, key, value);
   };
+  // what may stay empty is folded, as on Calculate; a field does not move while it is filled
+  const [folded] = useState(
+    () => new Set(item.parameters.filter((p) => !p.required && item.values[p.name] === undefined).map((p) => p.name)),
+  );
+  const [open, setOpen] = useState(false);
   if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
-  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name ? message : ''} />`)}
+  const field = (p) =>
+    html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name ? message : ''} />`;
+  const [shown, more] = table === 'feeds' ? [item.parameters, []] : [false, true].map((away) => item.parameters.filter((p) => folded.has(p.name) === away));
+  return html`<form onSubmit=${(e) => e.preventDefault()}>${shown.map(field)}
+    ${more.length > 0 && html`<details class="more" open=${open || more.some((p) => p.name === wrong)} onToggle=${(e) => setOpen(e.target.open)}><summary>${t('More ({count})', { count: more.length })}</summary>${more.map(field)}</details>`}
     ${item.limits?.length > 0 && html`<details data-limits=${name}><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${item.limits.map((limit) => html`<tr><td>${limit.name}</td><td>${limit.allowed}</td><td class="dim">${limit.source}</td></tr>`)}</tbody></table></div></details>`}</form>`;
 }
 

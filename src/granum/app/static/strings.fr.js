@@ -451,7 +451,6 @@ export const french = {
   'dissolved in it': 'dissous dedans',
   'New line': 'Nouvelle ligne',
   'title': 'titre',
-  'Salt from brine': 'Sel de saumure',
   'What enters': 'Ce qui entre',
   'Amounts, temperature and sizes start from ordinary values; change them afterwards.':
     'Quantités, température et tailles partent de valeurs ordinaires ; changez-les ensuite.',
