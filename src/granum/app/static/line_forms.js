@@ -2,11 +2,15 @@
 import { html, t, useState, useEffect } from './core.js';
 import { Field } from './form.js';
 
+/** What an end is called; a mixer takes any number of streams: it is one place, whatever its inlet is called. */
+const placed = (ends, end) =>
+  [end, end.split('.')[0]].map((one) => ends.find((known) => known.value === one)?.label).find(Boolean) || pretty(end);
+
 /** Feeds and equipment, each a closed form that opens when asked. */
 export function Forms({ form, typedIn, build, problem, message }) {
   const open = (name) => problem?.unit === name;
   const wrong = (name) => (open(name) ? problem.name : '');
-  return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${form.ends.targets.find((end) => end.value === item.to)?.label || pretty(item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} /></details>`)}
+  return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${placed(form.ends.targets, item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} /></details>`)}
     ${group(t('Equipment'), form.units, (name, item) => html`<details key=${'units' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.title || item.model}</span></summary><${ItemForm} table="units" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong(name)} message=${message} /></details>`)}`;
 }
 // what the line on the screen calls its units and streams, in the language of the page

@@ -9,7 +9,7 @@ const plain = (text) =>
     .replace(/[\u0300-\u036f]/g, '')
     .toLowerCase();
 
-const MOST = 24; // pieces that only the search finds: by synonyms, and in spite of a typing error
+const MOST = 8; // pieces that only the search finds: by synonyms, and in spite of a typing error
 /** Equipment that words mean, the best first, as the search over everything has it. */
 function useRanked(word) {
   const { data } = useAnswer(
@@ -38,8 +38,11 @@ export function Palette({ origin, pick, close }) {
       : words.length + 1;
   };
   const place = (e) => (ranked.includes(e.model) ? ranked.indexOf(e.model) : ranked.length);
+  // of what the search alone knows, what it ranks before the last piece that has the words, or the first few
+  const named = (list || []).filter((e) => far(e) <= words.length);
+  const last = named.length ? Math.max(...named.map(place)) : MOST;
   const found = (list || [])
-    .filter((e) => far(e) <= words.length || place(e) < MOST)
+    .filter((e) => far(e) <= words.length || (place(e) < last && place(e) < ranked.length))
     .toSorted((one, other) => far(one) - far(other) || place(one) - place(other));
   const domains = Object.keys(english).filter((domain) => found.some((e) => e.domain === domain));
   const pieces = (some) =>
