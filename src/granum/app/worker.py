@@ -89,7 +89,7 @@ def main() -> None:
 
     registry.everything()
     if tasks.empty():  # nobody waits for it yet
-        TASKS["warm_up"](None, Tell())
+        TASKS["warm_up"]({}, Tell())
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
     while True:
         name, payload, code, units, new = _next(tasks)
