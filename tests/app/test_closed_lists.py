@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from granum.app.alone_forms import alone_form
+from granum.app.case_forms import line_form
 from granum.app.closed_lists import word_label
 from granum.app.forms import card_form, options, read_entry
 from granum.app.wording import told
@@ -59,6 +60,32 @@ def test_names_of_the_library_are_chosen() -> None:
         "ethanol",
     }
     assert {"value": "wheat starch", "label": "amidon de blé"} in dust["options"]
+
+
+def test_salts_of_a_pair_sieves_and_what_a_wash_dissolves_come_from_lists() -> None:
+    pair = alone_form("crystallization.two_salt_crystallizer", {})["parameters"]
+    salts = {"sodium chloride", "potassium chloride"}
+    for p in (q for q in pair if q["name"].endswith("_salt")):
+        assert {o["value"] for o in p["options"]} == salts
+    drum = alone_form("filtration.rotary_vacuum_drum", {})["parameters"]
+    (wash,) = (p for p in drum if p.get("law") == "wash_dissolution")
+    law = wash["laws"]["saturating_wash"]["parameters"]
+    assert [o["value"] for o in law["crystal"]["options"]] == ["calcite"]
+    assert {o["value"] for o in law["solvent"]["options"]} == {"water", "sodium chloride"}
+    (start,) = wash["options"]
+    assert json.loads(start["table"])["crystal"] == "calcite"
+    assert json.loads(start["table"])["solvent"] == "water"
+    sieve = card_form("particles.aperture")["parameters"][0]
+    assert {"value": "200", "label": "ASTM E11"} in sieve["suggested"]
+
+
+def test_a_unit_of_a_line_chooses_among_the_substances_of_the_line() -> None:
+    case = (ROOT / "examples" / "potassium-nitrate" / "line.toml").read_text(encoding="utf-8")
+    units = line_form(case)["units"]
+    (crystallizer,) = (u for u in units.values() if u["model"].startswith("crystallization."))
+    offered = {p["name"]: [o["value"] for o in p["options"]] for p in crystallizer["parameters"]}
+    assert offered["solid"] == ["potassium nitrate"]
+    assert "water" in offered["solvent"]
 
 
 def test_a_field_of_a_kind_that_one_card_declares_is_read_as_the_form_says_it() -> None:

@@ -50,11 +50,27 @@ def test_a_figure_alone_is_drawn_over_a_setting_that_moves_it() -> None:
 
 
 def test_where_there_is_no_time_there_is_no_chart(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(machine_curves, "PATIENCE", 0.0)
+    monkeypatch.setattr(machine_curves, "LONGEST", 0.0)
     found = drawn("streams.pump")
     assert found["figure"] is None
     assert "study" in found["note"]
     assert len(found["inputs"]) > 1  # another choice may be quicker
+
+
+def test_with_little_time_the_curve_has_fewer_points_over_the_same_range(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    machine = Machine("streams.pump", {})
+    choice = machine.chosen("", "")
+    whole = machine.curve(*choice)
+    monkeypatch.setattr(machine_curves, "PATIENCE", 0.0)
+    quick = machine.curve(*choice)
+    assert whole is not None
+    assert quick is not None
+    assert (quick.x[0], quick.x[-1], quick.at) == (whole.x[0], whole.x[-1], whole.at)
+    assert quick.at in quick.x
+    assert quick.x.size == machine_curves.FEWEST < whole.x.size
+    np.testing.assert_array_equal(quick.y, whole.y[np.isin(whole.x, quick.x)])
 
 
 @pytest.mark.parametrize("asked", [{"against": "color"}, {"output": "color"}])

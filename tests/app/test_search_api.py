@@ -141,6 +141,9 @@ def test_other_answers_are_compressed_for_those_who_accept_it(client: Any) -> No
     assert client.get(place, headers={"accept-encoding": "gzip"}).json() == plain.json()
     script = client.get("/strings.fr.js", headers={"accept-encoding": "gzip"})
     assert script.headers["content-encoding"] == "gzip"
+    assert script.headers["cache-control"] == "no-cache"  # asked about anew: one of each version would not do
+    known = client.get("/strings.fr.js", headers={"if-none-match": script.headers["etag"]})
+    assert known.status_code == 304
 
 
 def test_plotly_is_a_third_of_its_size(client: Any) -> None:

@@ -18,8 +18,9 @@ from granum.cases.outline import identifier, outline
 from granum.cases.sections import sections
 from granum.core import registry
 from granum.core.errors import CaseError, GranumError, InputError
-from granum.core.i18n import language
+from granum.core.i18n import _, language
 from granum.flowsheet.drawing import draw
+from granum.flowsheet.symbols import word_of
 
 EXAMPLES = sorted(Path("examples").glob("*/*.toml"))
 EQUIPMENT = sorted(t.card.key for t in registry.everything().values() if t.card.sort == "equipment")
@@ -85,6 +86,14 @@ def test_names_are_of_the_language_and_free() -> None:
     assert outline(renamed).order == ("filtre", "filtre_à_plateaux")
     with pytest.raises(InputError, match="already"):
         b.rename(text, "filtre", "filtre 2")
+
+
+def test_every_piece_of_equipment_has_a_word_of_either_language() -> None:
+    words = {word_of(k) for k, thing in registry.everything().items() if thing.card.sort == "equipment"}
+    assert not any("_" in word for word in words)
+    with language("fr"):
+        same = {word for word in words if _(word) == word}
+    assert same == {"cyclone", "hydrocyclone"}
 
 
 def test_what_is_taken_is_divided_and_joined() -> None:
@@ -352,6 +361,10 @@ def test_text_that_is_no_case_is_refused_in_words() -> None:
     ("enters", "models"),
     [
         ("solution", ["crystallization.msmpr", "crystallization.vacuum_crystallizer", "streams.heater"]),
+        (
+            "solution",
+            ["evaporation.evaporator", "evaporation.recompression_evaporator", "drying.closed_dryer"],
+        ),
         ("suspension", ["settling.thickener", "filtration.chamber_press", "cyclones.hydrocyclone"]),
         ("moist_solid", ["drying.well_mixed_dryer", "drying.convective_dryer", "drying.rotary_dryer"]),
         ("dusty_gas", ["cyclones.gas_cyclone"]),

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from granum.app.case_forms import FEED_KINDS, case_value
-from granum.app.closed_lists import materials, within
+from granum.app.closed_lists import choose_within, materials
 from granum.app.forms import card_form, fields_of
 from granum.cases.alone import PHASES, case_text, tables
 from granum.cases.sizing import duty
@@ -36,8 +36,7 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
     form = card_form(key)
     unit = found["units"][name]
     values = {p["name"]: case_value(unit[p["name"]]) for p in form["parameters"] if p["name"] in unit}
-    for row in form["parameters"]:
-        row["options"] = row["options"] or within(row, found["mixture"])
+    choose_within(form["parameters"], found["mixture"])
     groups = []
     for port, feed in found["feeds"].items():
         rows, stand = _feed(port, feed, found["mixture"])

@@ -9,6 +9,7 @@ from typing import Any
 from granum.app.forms import typed
 from granum.app.machine_curves import Machine
 from granum.app.spread import curves
+from granum.app.telling import Tell
 from granum.cases.reading import read_text
 from granum.cases.sizing import doubts, sought
 from granum.core.conversion import Binder
@@ -39,7 +40,7 @@ NO_CURVE: dict[str, Any] = {"figure": None, "inputs": [], "outputs": []}
 THIN = {"color": "#8a94a3", "width": 0.8}
 
 
-def described_curve(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
+def described_curve(thing: Any, asked: Mapping[str, Any], tell: Tell | None = None) -> dict[str, Any]:
     """The chart of a result with what may be chosen for it; ``figure`` is None where there is none.
 
     ``asked`` holds the inputs as typed, which of them to run ``against``, which ``output`` in which ``unit``,
@@ -48,7 +49,7 @@ def described_curve(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     from granum.app.tasks import inputs_for
 
     if thing.card.sort == "equipment":
-        return _machine_curve(thing.card.key, asked)
+        return _machine_curve(thing.card.key, asked, tell)
     given = split(thing.card, inputs_for(thing.card, _mapping(asked.get("inputs"))))[0]
     start = time.thread_time()
     result = thing.evaluate(**given)
@@ -68,14 +69,14 @@ def described_curve(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     return told
 
 
-def _machine_curve(key: str, asked: Mapping[str, Any]) -> dict[str, Any]:
+def _machine_curve(key: str, asked: Mapping[str, Any], tell: Tell | None) -> dict[str, Any]:
     """The same of a piece of equipment alone; shaded is where it keeps its practical limits."""
     words = _mapping(asked.get("inputs"))
     machine = Machine(key, words)
     if not machine.figures:
         return NO_CURVE
     against, output = machine.chosen(str(asked.get("against", "")), str(asked.get("output", "")))
-    found = machine.curve(against, output)
+    found = machine.curve(against, output, tell)
     choice = {
         "against": against,
         "output": output,

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from granum.app.closed_lists import choose_within
 from granum.app.forms import card_form, laws_of, options, typed
 from granum.app.own_substances import form_row, own_substances
 from granum.cases.building import completed, share_of_feed
@@ -105,7 +106,7 @@ def _form_of(found: Outline, across: int) -> dict[str, Any]:
     return {
         "title": _(found.title) if found.title else "",
         "units": {
-            name: _unit(table) | _ports(found, name)
+            name: _unit(table, mixture) | _ports(found, name)
             for name, table in units.items()
             if isinstance(table, dict)
         },
@@ -225,7 +226,7 @@ def _ports(found: Outline, name: str) -> dict[str, Any]:
     return {"name": pretty(name), "inlets": inlets, "outlets": outlets, "joins": any_number}
 
 
-def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
+def _unit(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any]:
     try:
         card = registry.find(str(table.get("model", ""))).card
     except GranumError as fault:
@@ -239,6 +240,7 @@ def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
             "figures": [],
         }
     form = card_form(card.key)
+    choose_within(form["parameters"], {phase: listed(mixture, phase) for phase in PARTS})
     return {
         "model": card.key,
         "title": form["title"],

@@ -4,6 +4,7 @@ what a machine is fed with.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -11,7 +12,9 @@ from granum.comminution.work_indices import work_indices
 from granum.core.i18n import _, current_language
 from granum.core.parameters import Parameter
 from granum.core.words import plain
+from granum.materials.common_ion import salts_of_pairs
 from granum.materials.library import session
+from granum.particles.sieves import sieve_table
 from granum.streams.dusts import dusts
 
 # sort of material, by what the input of a card is called
@@ -116,7 +119,11 @@ OF_MIXTURE = {
     "impurity": ("liquids",),
     "pure_liquid": ("liquids",),
     "adsorbate": ("liquids", "gases"),
+    "crystal": ("solids",),
+    "first_salt": ("liquids",),
+    "second_salt": ("liquids",),
 }
+PAIRED = ("first_salt", "second_salt")
 
 
 def word_label(word: str) -> str:
@@ -137,6 +144,8 @@ def listed(p: Parameter, card: str = "") -> list[dict[str, str]]:
         return []
     if p.name in LIBRARY:
         return materials(session().names(LIBRARY[p.name]))
+    if p.name in PAIRED:
+        return materials(salts_of_pairs())
     if card in TABLES:
         return _sorted(
             (name, _(name) if session().label(name) == name else session().label(name))
@@ -148,6 +157,36 @@ def listed(p: Parameter, card: str = "") -> list[dict[str, str]]:
 def materials(names: Iterable[str]) -> list[dict[str, str]]:
     """Materials of the library by their names in the reader's language."""
     return _sorted((name, session().label(name)) for name in names)
+
+
+def suggested(p: Parameter) -> list[dict[str, str]]:
+    """Names that may stand in a text field, with what they are names of, where another field decides among
+    them.
+    """
+    if p.name != "sieve_designation":
+        return []
+    return [
+        {"value": name, "label": word_label(series)}
+        for series, sieves in sieve_table().items()
+        for name in sieves
+    ]
+
+
+def choose_within(rows: Iterable[dict[str, Any]], mixture: Mapping[str, Any]) -> None:
+    """Let the inputs of a machine, and those of a law by which a wash dissolves crystals, choose among the
+    species of a mixture; such a law starts from the first of them.
+    """
+    for row in rows:
+        row["options"] = row.get("options") or within(row, mixture)
+        for law in row.get("laws", {}).values():
+            if law["parameters"].keys() >= {"crystal", "solvent"}:
+                choose_within(law["parameters"].values(), mixture)
+        for option in row["options"]:
+            table = json.loads(option.get("table", "{}"))
+            if table.keys() >= {"crystal", "solvent"} and mixture.get("solids") and mixture.get("liquids"):
+                solid, liquids = mixture["solids"][0], mixture["liquids"]
+                own = {"crystal": solid, "solvent": next((n for n in liquids if n != solid), liquids[0])}
+                option["table"] = json.dumps(table | own, ensure_ascii=False)
 
 
 def within(row: Mapping[str, Any], mixture: Mapping[str, Any]) -> list[dict[str, str]]:

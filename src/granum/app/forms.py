@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from granum.app.closed_lists import listed, word_label
+from granum.app.closed_lists import listed, suggested, word_label
 from granum.app.exercises import with_card
 from granum.app.wording import summary_words
 from granum.core import registry
@@ -63,6 +63,7 @@ def card_form(key: str) -> dict[str, Any]:
     for row, p in zip(data["parameters"], card.parameters, strict=True):
         row |= _field(p)
         row["options"] = options(p, key)
+        row["suggested"] = suggested(p)
         row |= laws_of(p)
         row["headings"] = heading_names(p) if p.series else ()
         row["several"] = bool(p.kind) and card.sort == "formula"

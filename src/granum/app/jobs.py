@@ -183,13 +183,15 @@ class Crew:
     def submit(
         self, task: str, payload: Any, key: str = "", longest: float = 300.0, patience: float | None = None
     ) -> Job:
-        """Queue a job; ``key`` says which jobs share compiled code. Refused when too many wait."""
+        """Queue a job; ``key`` says which jobs share compiled code and solutions, whatever is asked of them.
+        Refused when too many wait.
+        """
         with self._lock:
             if self._now >= self._waiting:
                 raise Busy(_("The server is busy. Try again in a moment."))
             self._now += 1
         job = Job(task, payload, longest, patience)
-        self._threads.submit(self._work, job, f"{task} {key}")
+        self._threads.submit(self._work, job, key or task)
         return job
 
     async def run(

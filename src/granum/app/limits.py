@@ -226,6 +226,8 @@ class Guard:
             if message["type"] == "http.response.start":
                 out = MutableHeaders(scope=message)
                 out.update(HEADERS)
+                # a script of the version before, kept without asking, would not fit the others
+                out.setdefault("cache-control", "no-cache")
                 if self._token and given:
                     out.append("set-cookie", f"{COOKIE}={given}; HttpOnly; SameSite=Strict; Path=/")
             await send(message)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from granum.app.telling import Tell
 from granum.cases.alone import case_text
 from granum.cases.reading import read_text
 from granum.cases.sizing import duty
@@ -19,7 +20,8 @@ from granum.flowsheet.run import Line, Run
 from granum.flowsheet.specifications import varied
 from granum.reports.sensitivity import Curve, places, window
 
-PATIENCE = 4.0  # seconds that the solutions of one chart may take
+PATIENCE = 4.0  # seconds after which a chart that can be read gets no more points
+LONGEST = 20.0  # seconds in which it must have come so far
 FEWEST, MOST = 9, 31  # points of a chart
 ENTERING = ("mass_flow", "solid_flow", "temperature")
 NUDGE = 1.03  # a setting times this shows whether it matters
@@ -82,6 +84,8 @@ class Machine:
         ):
             if name and name not in known:
                 raise unknown_name(what, name, known, _("for {owner}").format(owner=self.key))
+        if against and output:
+            return against, output
         with contextlib.suppress(GranumError):
             sized = duty(self.key)
             against, output = against or sized.setting, output or sized.figure
@@ -97,23 +101,39 @@ class Machine:
         first = next(iter(self.figures))
         return trials[0], output if output in self.figures else first
 
-    def curve(self, against: str, output: str) -> Curve | None:
-        """A figure over a setting; None where there is not the time for some points of it."""
+    def curve(self, against: str, output: str, tell: Tell | None = None) -> Curve | None:
+        """A figure over a setting, with as many points as there is time for; None where these are too few."""
         p, at = self.settings[against], self.at(against)
-        began = time.perf_counter()
-        self.solved(against, at)
-        count = int(PATIENCE / (time.perf_counter() - began))
-        if count < FEWEST:
-            return None
         low, high, logarithmic = window(p, at)
-        x = places(low, high, at, logarithmic, min(count, MOST))
+        x = places(low, high, at, logarithmic, MOST)
         y, trusted = np.full(x.shape, np.nan), np.zeros(x.shape, dtype=bool)
+        done: list[int] = []
         began = time.perf_counter()
-        for i in sorted(range(x.size), key=lambda i: abs(i - int(np.searchsorted(x, at)))):
+        for i in refining(x.size, int(np.searchsorted(x, at))):
             run = self.solved(against, float(x[i]))
             if run is not None:
                 y[i] = next(value for q, value in self._told(run) if q.name == output)
                 trusted[i] = all(check.ok for check in run.units[self.name].checks) and not run.flags
-            if time.perf_counter() - began > 2.0 * PATIENCE:
-                break  # from the present value outward: a narrower chart
-        return Curve(p, self.figures[output], at, x, y, trusted, logarithmic)
+            done.append(i)
+            if time.perf_counter() - began > (PATIENCE if len(done) >= FEWEST else LONGEST):
+                break
+            if tell is not None:
+                tell(len(done) / x.size, _("drawing"))
+        if len(done) < FEWEST:
+            return None
+        here = sorted(done)
+        return Curve(p, self.figures[output], at, x[here], y[here], trusted[here], logarithmic)
+
+
+def refining(count: int, first: int) -> list[int]:
+    """Places of an axis, the present one first, then a few over all of it, then those between.
+
+    >>> refining(9, 3)
+    [3, 0, 7, 8, 1, 5, 2, 4, 6]
+    """
+
+    def rank(i: int) -> int:
+        away = abs(i - first)
+        return 0 if away % 4 == 0 or i in (0, count - 1) else 1 if away % 2 == 0 else 2
+
+    return sorted(range(count), key=lambda i: (rank(i), abs(i - first)))

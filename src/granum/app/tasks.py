@@ -21,6 +21,7 @@ from granum.app.spread import spread
 from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
+from granum.cases.alone import case_text
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.conversion import Binder
@@ -139,11 +140,11 @@ def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     return packed(spread(thing, Binder.of(thing.card.key, thing.card.parameters).resolved((), given)[0]))
 
 
-def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:
+def sensitivity(payload: dict[str, Any], tell: Tell) -> bytes:
     """The chart of one result over one input, with the choice of both; and what other laws give where that
     is wanted.
     """
-    return packed(described_curve(_valued_or_machine(payload["key"]), payload))
+    return packed(described_curve(_valued_or_machine(payload["key"]), payload, tell))
 
 
 def figure(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -375,6 +376,13 @@ def mark(payload: dict[str, Any], _tell: Tell) -> bytes:
     return packed(marked(payload["name"], payload["step"], payload["seed"], payload["answer"]))
 
 
+def warm_up(_payload: Any, tell: Tell) -> bytes:
+    """Solve and draw a small machine: what every line needs from JAX is then there for the first."""
+    payload = {"case": case_text("settling.thickener", {})}
+    run(payload, tell)
+    return inside(payload, tell)
+
+
 def rest(payload: dict[str, Any], tell: Tell) -> bytes:
     """Do nothing for a while, ready to be cancelled: shows that a worker process is there."""
     until = time.monotonic() + float(payload["seconds"])
@@ -412,6 +420,7 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
         answers,
         answer_sheet,
         mark,
+        warm_up,
         rest,
         fill,
     )

@@ -17,6 +17,7 @@ MOST_MEMORY = 2_500_000_000  # bytes
 MUCH, MORE = 450_000_000, 40_000_000
 # and a process with long work, before work of another sort
 CROWDED, MORE_CROWDED = 600_000_000, 100_000_000
+BURSTING = 1_200_000_000  # bytes beyond which it does so even before work that it knows
 # bytes beyond which a process that has nothing to do gives way to a new one
 IDLE_MEMORY = 400_000_000
 _forgetting = threading.Lock()

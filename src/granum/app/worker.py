@@ -18,7 +18,7 @@ import threading
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from granum.app.wear import CROWDED, MORE_CROWDED, forget_when_worn, give_back
+from granum.app.wear import BURSTING, CROWDED, MORE_CROWDED, forget_when_worn, give_back
 from granum.core import kept
 from granum.core.garbage import collect_seldom
 
@@ -88,11 +88,12 @@ def main() -> None:
     from granum.core.units import set_unit_system
 
     registry.everything()
+    if tasks.empty():  # nobody waits for it yet
+        TASKS["warm_up"]({}, Tell())
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
     while True:
         name, payload, code, units, new = _next(tasks)
-        if new:
-            forget_when_worn(CROWDED, MORE_CROWDED)
+        forget_when_worn(CROWDED if new else BURSTING, MORE_CROWDED)
         cancelled.clear()
         set_language(code)
         set_unit_system(units)

@@ -10,6 +10,7 @@ with every comment and every other line as they were. The text between two steps
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from typing import Any, Concatenate, ParamSpec
@@ -326,9 +327,13 @@ def _scaled(model: str, made: Mapping[str, Any], found: Outline) -> dict[str, An
     """Sizes of vessels and machines for a line far larger or smaller than what they are fed alone, in
     proportion.
     """
-    alone = _entering(tables(model)["feeds"])
-    times = _entering(table_of(found.raw, "feeds")) / alone if alone > 0.0 else 1.0
-    if times <= 0.0 or 0.5 < times < 2.0:
+    example = tables(model)
+    alone, here = (_entering(table_of(raw, "feeds")) for raw in (example, found.raw))
+    times, near = here / alone if alone > 0.0 else 1.0, (0.5, 2.0)
+    if model.startswith("evaporation."):  # it is the solvent that is to be driven out, and some must be left
+        alone, here = _solvent(example), _solvent(found.raw)
+        times, near = (here / alone if alone > 0.0 else 1.0), (0.9, 2.0)
+    if times <= 0.0 or near[0] < times < near[1]:
         return {}
     parameters = (p for p in registry.find(model).card.parameters if p.name in EXTENSIVE and p.name in made)
     return {
@@ -350,6 +355,17 @@ def _entering(feeds: Mapping[str, Any]) -> float:
                 total += flow_of(table, word)
             except (GranumError, TypeError):
                 continue
+    return total
+
+
+def _solvent(raw: Mapping[str, Any]) -> float:
+    """What the feeds bring of the first liquid, kg/s; unreadable ones count as nothing."""
+    first = (listed(table_of(raw, "mixture"), "liquids") or [""])[0]
+    total = 0.0
+    for table in table_of(raw, "feeds").values():
+        with contextlib.suppress(GranumError, TypeError):
+            share = share_of(table_of(table, "liquid").get(first, "100 %"), first)
+            total += flow_of(table, "liquid_flow") * share
     return total
 
 
@@ -378,7 +394,9 @@ def _with_vapor(case: str) -> str:
 
 def _asks_for_vapor(model: str) -> bool:
     """Whether a piece of equipment evaporates or condenses the solvent."""
-    return any(word in model for word in ("vacuum_crystallizer", "vacuum_batch", "humid", "condenser"))
+    return model.startswith(("drying.", "evaporation.")) or any(
+        word in model for word in ("vacuum_crystallizer", "vacuum_batch", "humid", "condenser")
+    )
 
 
 def add_wash(case: str, unit: str) -> str:

@@ -220,8 +220,8 @@ def impossible(
             name,
             _(
                 "{what} would hold {share} times the vapor that saturates it at {temperature}: give it "
-                "more gas or a higher temperature, or let it condense in a streams.humid_mixer or "
-                "streams.condenser_cooler."
+                "more gas or a higher temperature, or let it condense in a mixer of humid gases or a "
+                "cooler with condensation."
             ).format(what=what, share=format_number(saturation), temperature=_kelvin(temperature)),
         )
     if not COLDEST + 1.0 < temperature < HOTTEST - 1.0:

@@ -31,6 +31,10 @@ SYMBOLS: dict[str, str] = {
     + '<path d="M30 44 q-12 -8 -2 -18 q2 6 5 4 q2 -6 -1 -10 q14 8 8 18 q-2 5 -10 6 z" fill="none"/>',
     "humidifier": '<path d="M14 10 h32 v40 h-32 z"/><path d="M20 18 l4 8 M30 18 v8 M40 18 l-4 8 M20 32 l4 8 M30 32 v8 M40 32 l-4 8" fill="none"/>',  # noqa: E501
     "pipe": '<path d="M2 24 h56 v12 h-56 z"/><circle cx="14" cy="30" r="2"/><circle cx="28" cy="28" r="2"/><path d="M38 30 h12 M46 26 l5 4 l-5 4" fill="none"/>',  # noqa: E501
+    "pump": '<circle cx="30" cy="30" r="20"/><path d="M20 13 L50 30 L20 47" fill="none"/>',
+    "evaporator": '<path d="M18 6 h24 v34 q0 14 -12 14 q-12 0 -12 -14 z"/><path d="M18 32 l6 -5 l6 5 l6 -5 l6 5 M26 20 q3 -4 0 -8 M34 20 q3 -4 0 -8" fill="none"/>',  # noqa: E501
+    "scrubber": '<path d="M16 6 h28 v48 h-28 z"/><path d="M30 6 v18 M30 14 l-8 8 M30 14 l8 8" fill="none"/><path d="M16 44 h28" fill="none" stroke-dasharray="3 3"/>',  # noqa: E501
+    "dust_filter": '<path d="M10 6 h40 v30 l-20 18 l-20 -18 z"/><path d="M18 12 v22 M26 12 v24 M34 12 v24 M42 12 v22" fill="none"/>',  # noqa: E501
     "fan": '<circle cx="30" cy="30" r="20"/><path d="M16 16 L48 24 M16 44 L48 36" fill="none"/>',
 }
 
@@ -52,6 +56,12 @@ _WORDS = (
     ("mill", "mill"),
     ("fluidization.", "fluidized_bed"),
     ("conveying.", "pipe"),
+    ("evaporation.", "evaporator"),
+    ("scrubber", "scrubber"),
+    ("spray_tower", "scrubber"),
+    ("bag_filter", "dust_filter"),
+    ("electrostatic", "dust_filter"),
+    ("pump", "pump"),
     ("humidifier", "humidifier"),
     ("heater", "heater"),
     ("cooler", "heater"),
@@ -81,11 +91,11 @@ def word_of(model: str) -> str:
     >>> word_of("filtration.horizontal_belt_filter"), word_of("streams.stirred_tank")
     ('filter', 'vessel')
     """
-    return (
-        _SHORT.get(_named(model))
-        or _named(model).replace("_", " ")
-        or model.rpartition(".")[2].replace("_", " ")
-    )
+    symbol, own = _named(model), model.rpartition(".")[2]
+    if any(word in own for word in ("cooler", "coil")):
+        return "cooler"
+    return (own if symbol in _SHARED else _SHORT.get(symbol, symbol)).replace("_", " ")
 
 
 _SHORT = {"drum_filter": "filter"}
+_SHARED = frozenset(("", "scrubber", "dust_filter"))  # what stands for several that are called otherwise

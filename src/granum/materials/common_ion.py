@@ -111,6 +111,11 @@ class CommonIon(eqx.Module):
 
 
 @lru_cache(maxsize=32)
+def salts_of_pairs() -> list[str]:
+    """The salts that stand in a pair, by name."""
+    return sorted({name for pair in MIXINGS for name in pair})
+
+
 def common_ion(first: str, second: str, materials: Library | None = None) -> CommonIon:
     """The pair of two solutes by name."""
     known = materials or session()

@@ -329,6 +329,7 @@ def _to_figure_of(value: float | None, error: float | None) -> str:
 
 
 ROUNDING = 1e-9
+SLACK = 1e-6  # below zero, what a balance that is solved leaves of a difference
 
 
 class CheckRow(NamedTuple):
@@ -399,7 +400,7 @@ def _allowed(limit: Limit, card: Card) -> str:
 
 def _ruled(end: float, unit: str) -> float:
     """An end of a limit without what it leaves to rounding; 0.1 mdarcy is none."""
-    return 0.0 if -ROUNDING <= end <= (ROUNDING if unit == "dimensionless" else 0.0) else end
+    return 0.0 if -SLACK <= end <= (ROUNDING if unit == "dimensionless" else 0.0) else end
 
 
 def _end(low: float, high: float) -> float:

@@ -13,6 +13,7 @@ from granum.core.kinds import KINDS
 from granum.streams.stream import Stream
 
 NARROW = 0.17  # of the axis across, below which a name runs into the next one
+LETTER = 0.014  # of the axis, what a letter of a name takes at most
 LINE = 0.075  # of the height of a chart
 EVEN = 1e-3  # difference of shares below which a machine parts nothing by size
 RARE = 1e-6  # share of the solid below which a class tells nothing
@@ -55,7 +56,10 @@ def shade(drawing: Any, clock: Sequence[float], names: Iterable[str]) -> float:
     from granum.core.charts import ACCENT, INK, LIQUID, SOLID
 
     called, row = tuple(names), 0
-    narrow = any(stop - start < NARROW * clock[-1] for start, stop in pairwise(clock))
+    narrow = any(
+        stop - start < max(NARROW, LETTER * len(name)) * clock[-1]
+        for (start, stop), name in zip(pairwise(clock), called, strict=True)
+    )
     rows = len(called) if narrow else 1
     for i, ((start, stop), name) in enumerate(zip(pairwise(clock), called, strict=True)):
         color = (SOLID, LIQUID, ACCENT, INK)[i % 4]

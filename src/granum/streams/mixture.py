@@ -160,7 +160,7 @@ class Mixture:
         """
         names = [species.name for species in getattr(self, phase)]
         if name not in names:
-            raise unknown_name(_("Species"), name, names, _("among the {phase}").format(phase=phase))
+            raise unknown_name(_("Species"), name, names, _("among the {phase}").format(phase=_(phase)))
         return names.index(name)
 
     @cached_property

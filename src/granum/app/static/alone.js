@@ -76,9 +76,11 @@ function Work({ card, given }) {
   });
   const busy = form.pending || answer.pending;
   const problem = !busy && (form.error || answer.error); // what was refused is not what is looked at now
+  const inside = useInside(text, busy || Boolean(problem));
   const wrong = problem?.details?.name;
+  const isWrong = (p) => Boolean(wrong) && (wrong === p.name || p.name.endsWith(`.${wrong}`));
   const field = (p) =>
-    html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} aside=${finder(p)} problem=${wrong === p.name || p.name.endsWith(`.${wrong}`) ? problem.message : ''} />`;
+    html`<${Field} key=${p.name} id=${`field-${p.name.replaceAll(' ', '-')}`} parameter=${p} text=${values[p.name] ?? form.data.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} aside=${finder(p)} problem=${isWrong(p) ? problem.message : ''} />`;
   const folded = useRef(null); // a field does not move while it is filled
   if (form.data && !folded.current)
     folded.current = form.data.parameters
@@ -86,6 +88,7 @@ function Work({ card, given }) {
       .map((p) => p.name);
   const more = form.data?.parameters.filter((p) => folded.current.includes(p.name));
   const needed = form.data?.parameters.filter((p) => !more.includes(p));
+  const spot = wrong && [...(form.data?.parameters ?? []), ...(form.data?.groups ?? []).flatMap((g) => g.parameters)].find(isWrong);
   /** The machine as a line of its own, handed to another page. */
   const handTo = (page) => async (e) => {
     e.preventDefault();
@@ -121,9 +124,9 @@ function Work({ card, given }) {
       <a class="button" href=${link('lines')} onClick=${handTo('lines')} aria-disabled=${String(!text)}>${t('Put it in a line')}</a> <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
       ${sought && html`<${Seek} results=${results} sought=${sought} change=${change} stop=${stop} solved=${solved} label=${form.data.parameters.find((p) => p.name === sought.name).label} />`}
-      <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
+      <div aria-live="polite">${problem && html`<p class=${spot ? 'message out told' : 'message out'}>${spot ? t('Nothing is calculated before this is mended: {name}', { name: spot.label }) : problem.message}</p>`}</div>
       <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />
-      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text}><${Inside} card=${card} text=${text} old=${busy || Boolean(problem)} /><${Sensitivity} card=${card} values=${values} case=${text} old=${busy || Boolean(problem)} choice=${drawn} setChoice=${setDrawn} /></${Outcome}>`}</div></section>`;
+      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text}><${Inside} inside=${inside} card=${card} /><${Sensitivity} card=${card} values=${values} case=${text} old=${busy || Boolean(problem)} wait=${inside.pending} choice=${drawn} setChoice=${setDrawn} /></${Outcome}>`}</div></section>`;
 }
 
 /** Streams by the ports of the one machine. */
@@ -136,17 +139,20 @@ const ports = (rows, labels = {}) =>
   );
 
 /** What there is to look at: asked for once the figures stand, so that they never wait for it. */
-function Inside({ card, text, old }) {
-  const seen = useRef(null); // the charts before stay, greyed, until others come
-  const { data, error } = useAnswer(
+const useInside = (text, old) =>
+  useAnswer(
     (signal) => (text && !old ? ask('/api/inside', { case: text, place: '' }, { signal }) : Promise.resolve(null)),
     [text, old],
     20,
   );
+
+function Inside({ card, inside: { data, error, pending, cancel, job } }) {
+  const seen = useRef(null); // the charts before stay, greyed, until others come
   if (data) seen.current = data;
   if (error) return html`<p class="small dim">${error.message}</p>`;
+  if (!seen.current) return html`<${Working} busy=${pending} cancel=${cancel} job=${job} />`;
   return seen.current?.charts.map(
-    (c) => html`<section data-inside=${c.heading} aria-label=${c.heading}><h2>${c.heading}</h2><${Plot} figure=${c.figure} label=${c.heading} name=${`${card.card}-${c.heading}`} /></section>`,
+    (c) => html`<section class=${pending ? 'stale' : ''} data-inside=${c.heading} aria-label=${c.heading}><h2>${c.heading}</h2><${Plot} figure=${c.figure} label=${c.heading} name=${`${card.card}-${c.heading}`} /></section>`,
   );
 }
 

@@ -97,13 +97,17 @@ function Tree({ page, cards, current }) {
         entry.card
           ? html`<${Item} key=${entry.card.card} page=${page} card=${entry.card} current=${current} />`
           : html`<li key=${entry.name}><details class="family" open=${entry.list.some((c) => c.card === current)}><summary>${entry.title}</summary>
-            <ul>${entry.list.map((c) => html`<${Item} key=${c.card} page=${page} card=${c} current=${current} />`)}</ul></details></li>`,
+            <ul>${entry.list.map((c) => html`<${Item} key=${c.card} page=${page} card=${c} current=${current} family=${c.family_title} />`)}</ul></details></li>`,
       )}</ul></details>`,
     );
 }
 
-const Item = ({ page, card: c, current }) =>
-  html`<li><a href=${link(page, c.card)} aria-current=${c.card === current ? 'page' : null} title=${c.summary}>${c.title}</a></li>`;
+/** A card in the list; in a family what tells it from the others, its whole title for who hears it. */
+function Item({ page, card: c, current, family = '' }) {
+  const own = family && c.title.startsWith(`${family} (`) && c.title.endsWith(')');
+  const shown = own ? html`<span class="spoken">${family} </span>${c.title.slice(family.length + 2, -1)}` : c.title;
+  return html`<li><a href=${link(page, c.card)} aria-current=${c.card === current ? 'page' : null} title=${own ? `${c.title}\u2002·\u2002${c.summary}` : c.summary}>${shown}</a></li>`;
+}
 
 // ---- one tab stop, arrow keys inside ----------------------------------------------------------------
 const visible = (list) =>

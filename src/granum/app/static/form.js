@@ -117,7 +117,24 @@ function read(typed, before) {
 }
 
 function Text({ p, id, note, text, onChange, problem }) {
-  return html`<input id=${id} type="text" value=${text || ''} placeholder=${p.default_shown?.number ?? ''} aria-describedby=${note} aria-invalid=${problem ? 'true' : 'false'} onInput=${(e) => onChange(e.target.value)} />`;
+  const [touched, setTouched] = useState(false);
+  const wrong = problem || !touched ? '' : notWhole(p, text || '');
+  const list = p.suggested?.length ? `${id}-list` : null;
+  return html`<input id=${id} type="text" value=${text || ''} list=${list} placeholder=${p.default_shown?.number ?? ''} aria-describedby=${note} aria-invalid=${problem || wrong ? 'true' : 'false'} onInput=${(e) => {
+      setTouched(true);
+      onChange(e.target.value);
+    }} />
+    ${list && html`<datalist id=${list}>${p.suggested.map((one) => html`<option value=${one.value}>${one.label}</option>`)}</datalist>`}
+    ${wrong && html`<div class="out small told" role="status">${wrong}</div>`}`;
+}
+
+/** What a text that is typed for a count lacks; empty where it may stand. */
+function notWhole(p, text) {
+  if (p.sort !== 'int' || text.trim() === '') return '';
+  const number = Number(text.trim().replace(/[−–]/, '-'));
+  const beyond = (p.lower ?? -Infinity) > number || number > (p.upper ?? Infinity);
+  if (Number.isInteger(number) && !beyond) return '';
+  return p.allowed ? t('A whole number is needed: {allowed}.', { allowed: p.allowed }) : t('A whole number is needed.');
 }
 
 /** Fields of a card: where it asks for properties of a fluid, that fluid in words before the first of them. */

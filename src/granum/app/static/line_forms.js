@@ -2,11 +2,15 @@
 import { html, t, useState, useEffect } from './core.js';
 import { Field } from './form.js';
 
+/** What an end is called; a mixer takes any number of streams: it is one place, whatever its inlet is called. */
+const placed = (ends, end) =>
+  [end, end.split('.')[0]].map((one) => ends.find((known) => known.value === one)?.label).find(Boolean) || pretty(end);
+
 /** Feeds and equipment, each a closed form that opens when asked. */
 export function Forms({ form, typedIn, build, problem, message }) {
   const open = (name) => problem?.unit === name;
   const wrong = (name) => (open(name) ? problem.name : '');
-  return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${form.ends.targets.find((end) => end.value === item.to)?.label || pretty(item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} /></details>`)}
+  return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${placed(form.ends.targets, item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} /></details>`)}
     ${group(t('Equipment'), form.units, (name, item) => html`<details key=${'units' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.title || item.model}</span></summary><${ItemForm} table="units" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong(name)} message=${message} /></details>`)}`;
 }
 // what the line on the screen calls its units and streams, in the language of the page
@@ -34,8 +38,17 @@ export function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'f
     setTyped((before) => ({ ...before, [key]: value }));
     typedIn.later(table, name, key, value);
   };
+  // what may stay empty is folded, as on Calculate; a field does not move while it is filled
+  const [folded] = useState(
+    () => new Set(item.parameters.filter((p) => !p.required && item.values[p.name] === undefined).map((p) => p.name)),
+  );
+  const [open, setOpen] = useState(false);
   if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
-  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name ? message : ''} />`)}
+  const field = (p) =>
+    html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name ? message : ''} />`;
+  const [shown, more] = table === 'feeds' ? [item.parameters, []] : [false, true].map((away) => item.parameters.filter((p) => folded.has(p.name) === away));
+  return html`<form onSubmit=${(e) => e.preventDefault()}>${shown.map(field)}
+    ${more.length > 0 && html`<details class="more" open=${open || more.some((p) => p.name === wrong)} onToggle=${(e) => setOpen(e.target.open)}><summary>${t('More ({count})', { count: more.length })}</summary>${more.map(field)}</details>`}
     ${item.limits?.length > 0 && html`<details data-limits=${name}><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${item.limits.map((limit) => html`<tr><td>${limit.name}</td><td>${limit.allowed}</td><td class="dim">${limit.source}</td></tr>`)}</tbody></table></div></details>`}</form>`;
 }
 

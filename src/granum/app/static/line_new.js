@@ -43,15 +43,18 @@ export function NewLine({ make, cancel }) {
       return false;
     }
   };
+  const main = { solution: 'solute', suspension: 'solid', moist_solid: 'solid', dusty_gas: 'solid' }[values.enters];
+  const chosen = rows?.[main].find((s) => s.value === values[main])?.label || values[main];
+  const suggestion = chosen[0].toUpperCase() + chosen.slice(1);
   const labels = { liquid: t('liquid'), solute: t('dissolved in it'), solid: t('solid'), gas: t('gas') };
   return html`<form class="card new" data-new aria-label=${t('New line')} onSubmit=${(e) => {
     e.preventDefault();
-    make(values);
+    make({ ...values, title: values.title.trim() || suggestion });
   }}><h2 class="first">${t('New line')}</h2>
-    <label class="end" for="new-title"><span>${t('title')}</span><input id="new-title" type="text" required value=${values.title} placeholder=${t('Salt from brine')} onInput=${(e) => set('title')(e.target.value)} /></label>
+    <label class="end" for="new-title"><span>${t('title')}</span><input id="new-title" type="text" value=${values.title} placeholder=${suggestion} onInput=${(e) => set('title')(e.target.value)} /></label>
     <fieldset><legend>${t('What enters')}</legend>${BEGINNINGS.map(([name, label]) => html`<label class="choice line"><input type="radio" name="enters" value=${name} checked=${values.enters === name} onChange=${() => set('enters')(name)} /> ${t(label)}</label>`)}</fieldset>
     ${rows && asked.map((name) => html`<${Choice} key=${name} id=${'new-' + name} label=${labels[name]} rows=${rows[name]} value=${values[name]} pick=${set(name)} />`)}
     ${known && html`<${Describe} key=${values.enters} id="new-own" known=${known} solvent=${values.liquid} first=${values.enters === 'solution' ? 'solutes' : 'solids'} describe=${describe} />`}
     <p class="small dim">${t('Amounts, temperature and sizes start from ordinary values; change them afterwards.')}</p>
-    <div class="row"><button class="button main" type="submit" disabled=${!values.title.trim() || !known}>${t('Create the line')}</button><button class="button" type="button" onClick=${cancel}>${t('Close')}</button></div></form>`;
+    <div class="row"><button class="button main" type="submit" disabled=${!known}>${t('Create the line')}</button><button class="button" type="button" onClick=${cancel}>${t('Close')}</button></div></form>`;
 }

@@ -1,5 +1,5 @@
 // The equipment to choose from, by domain, with its symbols; found by its names in either language.
-import { html, t, ask, settings, useState, useEffect, useRef } from './core.js';
+import { html, t, ask, settings, useAnswer, useState, useEffect, useRef } from './core.js';
 import { english } from './strings.fr.js';
 
 const kept = {};
@@ -8,6 +8,16 @@ const plain = (text) =>
     .normalize('NFD')
     .replace(/[\u0300-\u036f]/g, '')
     .toLowerCase();
+
+const MOST = 8; // pieces that only the search finds: by synonyms, and in spite of a typing error
+/** Equipment that words mean, the best first, as the search over everything has it. */
+function useRanked(word) {
+  const { data } = useAnswer(
+    (signal) => (word ? ask(`/api/cards?sort=equipment&word=${encodeURIComponent(word)}`, undefined, { signal }) : Promise.resolve(null)),
+    [word],
+  );
+  return (word && data?.cards.map((c) => c.card)) || [];
+}
 
 export function Palette({ origin, pick, close }) {
   const [list, setList] = useState(kept[settings.language] || null);
@@ -19,14 +29,27 @@ export function Palette({ origin, pick, close }) {
     field.current?.focus();
   }, []);
   const words = plain(word).split(/\s+/).filter(Boolean);
-  const inside = ({ title }) => words.filter((w) => !` ${plain(title)}`.includes(` ${w}`)).length; // "continu" in "discontinu"
+  const ranked = useRanked(word.trim());
+  /** How well the words stand in what a piece is called: "continu" is also in "discontinu"; not at all where the search alone knows it. */
+  const far = (e) => {
+    const text = plain(`${e.title} ${e.other_names} ${e.model.replaceAll('_', ' ')} ${e.summary}`);
+    return words.every((w) => text.includes(w))
+      ? words.filter((w) => !` ${plain(e.title)}`.includes(` ${w}`)).length
+      : words.length + 1;
+  };
+  const place = (e) => (ranked.includes(e.model) ? ranked.indexOf(e.model) : ranked.length);
+  // of what the search alone knows, what it ranks before the last piece that has the words, or the first few
+  const named = (list || []).filter((e) => far(e) <= words.length);
+  const last = named.length ? Math.max(...named.map(place)) : MOST;
   const found = (list || [])
-    .filter((e) => {
-      const text = plain(`${e.title} ${e.other_names} ${e.model.replaceAll('_', ' ')} ${e.summary}`);
-      return words.every((w) => text.includes(w));
-    })
-    .toSorted((one, other) => inside(one) - inside(other));
+    .filter((e) => far(e) <= words.length || (place(e) < last && place(e) < ranked.length))
+    .toSorted((one, other) => far(one) - far(other) || place(one) - place(other));
   const domains = Object.keys(english).filter((domain) => found.some((e) => e.domain === domain));
+  const pieces = (some) =>
+    html`<div class="shelf">${some.map(
+      (e) =>
+        html`<button class="piece" data-model=${e.model} title=${e.summary} onClick=${() => pick(e.model)}><svg viewBox="0 0 60 60" width="40" height="40" aria-hidden="true" class="symbol" dangerouslySetInnerHTML=${{ __html: e.symbol }} /><span>${e.title}</span></button>`,
+    )}</div>`;
   return html`<section class="card palette" data-palette aria-label=${t('Add equipment')} onKeyDown=${(e) => e.key === 'Escape' && close()}><div class="row spread"><h2 class="first">${origin ? t('Equipment for {origin}', { origin }) : t('Add equipment')}</h2><button class="button" onClick=${close}>${t('Close')}</button></div>
     <input type="search" ref=${field} aria-label=${t('Search equipment')} placeholder=${t('filter, dryer, cyclone…')} value=${word} onInput=${(e) => setWord(e.target.value)} onKeyDown=${(
       e,
@@ -34,14 +57,6 @@ export function Palette({ origin, pick, close }) {
       if (e.key === 'Enter' && found.length) pick(found[0].model);
     }} />
     ${!list && html`<p class="dim" aria-busy="true">${t('Loading…')}</p>`}
-    <div class="shelves">${domains.map(
-      (domain) =>
-        html`<div key=${domain}><h3>${t(domain)}</h3><div class="shelf">${found
-          .filter((e) => e.domain === domain)
-          .map(
-            (e) =>
-              html`<button class="piece" data-model=${e.model} title=${e.summary} onClick=${() => pick(e.model)}><svg viewBox="0 0 60 60" width="40" height="40" aria-hidden="true" class="symbol" dangerouslySetInnerHTML=${{ __html: e.symbol }} /><span>${e.title}</span></button>`,
-          )}</div></div>`,
-    )}</div>
+    <div class="shelves">${words.length ? pieces(found) : domains.map((domain) => html`<div key=${domain}><h3>${t(domain)}</h3>${pieces(found.filter((e) => e.domain === domain))}</div>`)}</div>
     ${list && found.length === 0 && html`<p class="dim">${t('Nothing found.')}</p>`}</section>`;
 }

@@ -194,7 +194,7 @@ export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, l
   if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu });
   const plain = p.kind === 'ratio' && !units[0]?.unit && units.every((u) => ['', 'percent'].includes(u.unit));
   if (!plain || menu) offers.current = true; // a count or an exponent has no unit to choose, unless somebody wrote %
-  const shown = p.series ? inLanguage(given.number) : printed(inLanguage(given.number));
+  const shown = printed(inLanguage(given.number));
   const wrong = reading?.problem || problem;
   const example = p.default_shown?.number ?? p.hint ?? (p.series ? (p.example?.number ?? '1 2 3') : '');
   return html`<div class="quantity"><div class="pairs"><input id=${id} type="text" inputmode="text" autocomplete="off" autocapitalize="off" spellcheck=${false} aria-label=${id ? null : label} aria-describedby=${note} aria-invalid=${wrong ? 'true' : 'false'}

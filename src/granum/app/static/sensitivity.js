@@ -2,10 +2,10 @@
 import { html, t, ask, useAnswer, useRef, Working } from './core.js';
 import { Plot } from './plot.js';
 
-/** The result over one input; asked for when the number itself stands, so that it never waits for this. */
-export function Sensitivity({ card, values, case: text = '', old, units = {}, laws = false, choice, setChoice, none = '' }) {
+/** The result over one input; asked for when the number itself stands, and what else comes first, so that these never wait for it. */
+export function Sensitivity({ card, values, case: text = '', old, wait = false, units = {}, laws = false, choice, setChoice, none = '' }) {
   const fresh = useRef(null);
-  if (!old) fresh.current = values;
+  if (!old && !wait) fresh.current = values;
   const asked = fresh.current && {
     inputs: fresh.current,
     against: choice.against || '',
@@ -26,7 +26,7 @@ export function Sensitivity({ card, values, case: text = '', old, units = {}, la
   const menu = (name, label, list, chosen) =>
     list.length > 1 &&
     html`<label class="small">${label} <select data-menu=${name} value=${chosen} onChange=${(e) => setChoice({ ...choice, [name]: e.target.value })}>${list.map((p) => html`<option value=${p.name} selected=${p.name === chosen}>${p.label}</option>`)}</select></label>`;
-  return html`<section class=${pending && !old ? 'sensitivity stale' : 'sensitivity'} aria-label=${t('Sensitivity')} data-sensitivity=${data.against}>
+  return html`<section class=${(pending || wait) && !old ? 'sensitivity stale' : 'sensitivity'} aria-label=${t('Sensitivity')} data-sensitivity=${data.against}>
     <div class="row"><h2>${t('How it changes')}</h2>${menu('output', t('Draw'), data.outputs, data.output)} ${menu('against', t('over'), data.inputs, data.against)}</div>
     ${missing && html`<p class="small dim">${missing}</p>`}
     ${data.figure && html`<p class="spoken">${data.spoken}</p>

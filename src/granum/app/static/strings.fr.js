@@ -250,6 +250,8 @@ export const french = {
   'by mass': 'en masse',
   'Particle sizes': 'Granulométrie',
   'optional': 'facultatif',
+  'A whole number is needed.': 'Il faut un nombre entier.',
+  'A whole number is needed: {allowed}.': 'Il faut un nombre entier : {allowed}.',
   'no limit exceeded': 'aucune limite dépassée',
   'Draw': 'Tracer',
   '{count} rows': '{count} lignes',
@@ -449,7 +451,6 @@ export const french = {
   'dissolved in it': 'dissous dedans',
   'New line': 'Nouvelle ligne',
   'title': 'titre',
-  'Salt from brine': 'Sel de saumure',
   'What enters': 'Ce qui entre',
   'Amounts, temperature and sizes start from ordinary values; change them afterwards.':
     'Quantités, température et tailles partent de valeurs ordinaires ; changez-les ensuite.',
