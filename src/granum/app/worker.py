@@ -15,6 +15,8 @@ import queue
 import signal
 import sys
 import threading
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -33,13 +35,16 @@ def _limit(megabytes: int) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (megabytes * 1_000_000, megabytes * 1_000_000))
 
 
-def _next(tasks: queue.SimpleQueue[Any]) -> Any:
-    """The next task; while none is there, what tracing made is written, and what compiling took and does not
-    need any more, several hundred megabytes at times, goes back to the system.
+def _next(tasks: queue.SimpleQueue[Any], warm_up: Callable[[], object] | None) -> Any:
+    """The next task; while none is there, a process that has done none warms up, what tracing made is
+    written, and what compiling took and does not need any more, several hundred megabytes at times, goes
+    back to the system.
     """
     try:
         return tasks.get(timeout=REST)
     except queue.Empty:
+        if warm_up is not None:
+            warm_up()
         kept.store()
         give_back()
         return tasks.get()
@@ -88,11 +93,11 @@ def main() -> None:
     from granum.core.units import set_unit_system
 
     registry.everything()
-    if tasks.empty():  # nobody waits for it yet
-        TASKS["warm_up"]({}, Tell())
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
+    warm_up: Callable[[], object] | None = partial(TASKS["warm_up"], {}, Tell())
     while True:
-        name, payload, code, units, new = _next(tasks)
+        name, payload, code, units, new = _next(tasks, warm_up)
+        warm_up = None
         forget_when_worn(CROWDED if new else BURSTING, MORE_CROWDED)
         cancelled.clear()
         set_language(code)
