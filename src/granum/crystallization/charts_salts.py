@@ -123,7 +123,10 @@ def _within(salts: Brine, T: float, name: str) -> None:
 def _ties(pair: Brine, found: Isotherm) -> tuple[np.ndarray, np.ndarray]:
     """Straight lines from saturated solutions to their crystals, with gaps between them."""
     last, x, y = len(found.first) - 1, [], []
-    ends = [*np.linspace(0, found.corner, TIES).astype(int), *np.linspace(found.corner, last, TIES).astype(int)]
+    ends = [
+        *np.linspace(0, found.corner, TIES).astype(int),
+        *np.linspace(found.corner, last, TIES).astype(int),
+    ]
     for turn, i in enumerate(ends):
         crystal = pair.crystals[found.crystals[i]]
         salt = crystal.salt
@@ -202,9 +205,13 @@ def reciprocal_chart(
         x, y = _dried(salts, T, float(cation_share), float(anion_share))
         line = {"color": HEAT, "width": 3}
         name = _("as water is taken off")
-        drawing.add_scatter(x=100.0 * x, y=100.0 * y, mode="lines+markers", line=line, name=name, showlegend=True)
+        drawing.add_scatter(
+            x=100.0 * x, y=100.0 * y, mode="lines+markers", line=line, name=name, showlegend=True
+        )
     cations, anions = salts.ions[:2], salts.ions[2:]
-    drawing.update_xaxes(title=_("{ion} among the cations, % by charge").format(ion=cations[1]), range=[0, 100])
+    drawing.update_xaxes(
+        title=_("{ion} among the cations, % by charge").format(ion=cations[1]), range=[0, 100]
+    )
     drawing.update_yaxes(title=_("{ion} among the anions, % by charge").format(ion=anions[1]), range=[0, 100])
     return drawing
 

@@ -308,9 +308,7 @@ def boil(liquor: Liquor, feed: Stream, chest: Any, pure: Any, conductance: Any, 
     vapor = steam.replace(gas=steam.gas.at[liquor.vapor].set(made.evaporation))
     left = 1.0 - safe_divide(made.evaporation, made.most, 0.0)
     taken = product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow
-    return Effect(
-        T, pure, pressure, made.evaporation, grown, product, vapor, duty, taken, found, left
-    )
+    return Effect(T, pure, pressure, made.evaporation, grown, product, vapor, duty, taken, found, left)
 
 
 def entrained(made: Effect, carried: Any) -> tuple[Stream, Stream]:

@@ -30,7 +30,7 @@ from granum.numerics.complementarity import find_complementary
 SOLVENT = "water"
 TRACE = 1e-10  # mol of each ion per kg of water, so that none is ever absent
 BESIDE = 5.0  # K within a stable range from which the solubility product goes on beyond it
-LEAST = 2e-3  # of the water there is, which crystals and vapor always leave
+LEAST = 2e-4  # of the water there is, which crystals and vapor always leave
 FIRST = 3.0  # K of elevation, from which a boiling point is sought
 NEAR = 0.5  # of the solubility of a salt alone, from which equilibrium is sought
 
@@ -141,14 +141,18 @@ class Brine(eqx.Module):
 
     def coefficients(self, T: Any) -> Coefficients:
         """Of Pitzer's equations at a temperature."""
-        positive, negative = self.charges
-        cations, anions = self.ions[: len(positive)], self.ions[len(positive) :]
+        split = len(self.charges[0])
+        cations, anions = self.ions[:split], self.ions[split:]
         sets = np.zeros((len(cations), len(anions), 3, 8))
         ends = np.zeros((2, len(cations), len(anions), 1))
         for system, p in zip(self.salts, self.parts, strict=True):
             law, at = system.activity_law, (cations.index(p.cation), anions.index(p.anion))
             assert isinstance(law, ElectrolyteActivity)
-            sets[at], ends[0][at], ends[1][at] = (law.beta_zero, law.beta_one, law.c_phi), law.coldest, law.hottest
+            sets[at], ends[0][at], ends[1][at] = (
+                (law.beta_zero, law.beta_one, law.c_phi),
+                law.coldest,
+                law.hottest,
+            )
         binary = moller_function(jnp.clip(T, *ends), np.moveaxis(sets, -1, 0))
 
         def like(names: tuple[str, ...], others: tuple[str, ...]) -> tuple[Any, Any]:
@@ -159,9 +163,7 @@ class Brine(eqx.Module):
 
         of_cations, of_anions = like(cations, anions), like(anions, cations)
         slope = debye_huckel_slope.function(T)
-        return Coefficients(
-            slope, binary[..., 0], binary[..., 1], binary[..., 2], *of_cations, *of_anions
-        )
+        return Coefficients(slope, binary[..., 0], binary[..., 1], binary[..., 2], *of_cations, *of_anions)
 
     def mixings(self) -> list[Mixing]:
         """What is known of the ions upon each other."""
@@ -178,7 +180,7 @@ class Brine(eqx.Module):
     def heard(self, T: Any) -> None:
         """Record where a temperature lies outside what is known."""
         T, (low, high) = jnp.asarray(T, dtype=float), self.limits
-        outside = (T < low - SLACK) | (T > high + SLACK)
+        outside = (low - SLACK > T) | (high + SLACK < T)
         sources = "; ".join(dict.fromkeys(m.source for m in self.mixings()))
         flags.record(flags.EXTRAPOLATED, outside, T, "temperature", "materials.brines", low, high, sources)
 
@@ -266,7 +268,7 @@ class Brine(eqx.Module):
 
         def positive(x: Any) -> Any:
             _t, n, _evaporated, liquid = split(x)
-            return jnp.append(N - n @ table, liquid - 0.5 * LEAST)
+            return jnp.append(N - n @ table, liquid - LEAST)
 
         start = self._begun(T, N, forms, 1.0 - gone(T, jnp.zeros(len(forms))))
         if boiling is not None:
@@ -277,7 +279,7 @@ class Brine(eqx.Module):
         return Equilibrium(
             n * whole,
             liquid * whole,
-            (N - n @ table) / liquid,
+            jnp.maximum(N - TRACE - n @ table, 0.0) / liquid,
             evaporated * whole,
             t,
             ~some | (found.residual < 1e-9),

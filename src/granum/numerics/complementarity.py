@@ -54,9 +54,7 @@ def find_complementary(
     Derivatives with respect to closed-over values are those of the equations that hold.
 
     >>> import jax.numpy as jnp
-    >>> found = find_complementary(
-    ...     lambda x: x - jnp.array([2.0, -1.0]), jnp.ones(2), lambda x: x + 1.0
-    ... )
+    >>> found = find_complementary(lambda x: x - jnp.array([2.0, -1.0]), jnp.ones(2), lambda x: x + 1.0)
     >>> [round(float(v), 9) for v in found.value]
     [2.0, 0.0]
     """
@@ -100,4 +98,6 @@ def find_complementary(
 
     value, _more, _equation = implicit_root(one_of_each, start, search, tangent)
     left = slack(value)
-    return Complementary(value, left, lax.stop_gradient(jnp.max(jnp.abs(jnp.minimum(value, left)), initial=0.0)))
+    return Complementary(
+        value, left, lax.stop_gradient(jnp.max(jnp.abs(jnp.minimum(value, left)), initial=0.0))
+    )

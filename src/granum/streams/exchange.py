@@ -100,8 +100,8 @@ def reciprocal(names: Sequence[str], formulas: Mapping[str, str]) -> dict[str, f
 def additive(
     liquids: Sequence[Species], four: Mapping[str, float], formulas: Mapping[str, str]
 ) -> Sequence[Species]:
-    """The liquids with heat capacities of four salts that are sums over their ions, so that no heat depends on
-    which salts a solution of the ions is counted as; all four are shifted alike, by mole of charge.
+    """The liquids with heat capacities of four salts that are sums over their ions, so that no heat depends
+    on which salts a solution of the ions is counted as; all four are shifted alike, by mole of charge.
     """
     if not four:
         return liquids
@@ -116,7 +116,8 @@ def by_ions(
     known: Library, solids: Sequence[Species], liquids: Sequence[Species], formulas: Mapping[str, str]
 ) -> tuple[tuple[Species, ...], tuple[Species, ...]]:
     """Solids and liquids with their ions as components, where some liquids can make a solid by exchanging
-    them, or are the four salts of two cations and two anions; as they are where none can. The heat of dissolution places the solid.
+    them, or are the four salts of two cations and two anions; as they are where none can.
+    The heat of dissolution places the solid.
     """
     names = [s.name for s in liquids]
     possible = {s.name: exchanges(known, s.name, names, formulas) for s in solids}

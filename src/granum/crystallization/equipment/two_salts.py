@@ -80,9 +80,9 @@ class TwoSaltCrystallizer(Unit):
     others crystallizes, one salt, or more where the solution has reached an invariant point.
 
     Each salt alone has the solubility of the library, what they do to each other follows from Pitzer's
-    equations; known for sodium and potassium with chloride or nitrate, and for chloride and sulfate of either.
-    Two salts without a common ion make a reciprocal pair: give all four among the liquids, their ions are
-    exchanged. Crystals that form are those of the mixture. Fresh crystals have the given sizes: there are no
+    equations; known for sodium and potassium with chloride or nitrate, and for chloride and sulfate
+    of either. Two salts without a common ion make a reciprocal pair: give all four among the liquids, their
+    ions are exchanged. Crystals that form are those of the mixture. Fresh crystals have the given sizes: there are no
     kinetics here. The pressure is that at which the solution boils at its temperature. Crystals that come
     with the feed dissolve where the solution has room.
     """
@@ -116,7 +116,11 @@ class TwoSaltCrystallizer(Unit):
             if name and name not in names:
                 raise unknown_name(_("Salt"), name, names)
         crystallizing = list(dict.fromkeys(salts.brine.crystals[k].salt for k in salts.which))
-        others = [k for k in (*crystallizing, *range(len(names))) if names[k] not in (self.first_salt, self.second_salt)]
+        others = [
+            k
+            for k in (*crystallizing, *range(len(names)))
+            if names[k] not in (self.first_salt, self.second_salt)
+        ]
         first = names.index(self.first_salt) if self.first_salt else others.pop(0)
         return first, names.index(self.second_salt) if self.second_salt else others.pop(0)
 
@@ -151,7 +155,9 @@ class TwoSaltCrystallizer(Unit):
         T, (salts, chosen, left, product) = self.temperature, inside
         kinds = [salts.brine.crystals[k].salt for k in salts.which]
         flows = list(left.crystals * jnp.asarray(salts.crystal_masses))
-        made = [sum((f for f, k in zip(flows, kinds, strict=True) if k == salt), jnp.zeros(())) for salt in chosen]
+        made = [
+            sum((f for f, k in zip(flows, kinds, strict=True) if k == salt), jnp.zeros(())) for salt in chosen
+        ]
         every = jnp.sum(jnp.stack(flows))
         ratios = salts.brine.saturation(T, left.molalities)
         full = [

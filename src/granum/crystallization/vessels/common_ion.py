@@ -1,5 +1,5 @@
-"""Two salts with a common ion, or the four of a reciprocal pair: where they are saturated, which crystal forms
-first, and the isotherms.
+"""Two salts with a common ion, or the four of a reciprocal pair: where they are saturated, which crystal
+forms first, and the isotherms.
 """
 
 from __future__ import annotations
@@ -120,9 +120,10 @@ def fractions(pair: Brine, first: np.ndarray, second: np.ndarray) -> tuple[np.nd
 
 
 def molalities(pair: Brine, ions: Any) -> tuple[Any, Any]:
-    """Of both salts from those of their ions."""
-    one, other = (np.linalg.pinv(pair.ions_per_salt.T) @ np.asarray(ions).T)[:2]
-    return one, other
+    """Of both salts from those of their ions: each has one of its own."""
+    table, m = pair.ions_per_salt, np.asarray(ions)
+    own = [int(np.argmax((table[k] > 0.0) & (table[1 - k] == 0.0))) for k in (0, 1)]
+    return m[..., own[0]] / table[0, own[0]], m[..., own[1]] / table[1, own[1]]
 
 
 @jax.jit
