@@ -226,12 +226,11 @@ def test_two_salts_crystallize_together_where_both_are_saturated():
     lean = product.replace(liquid=product.liquid * jnp.array([1.0, 1.1, 1.1]))
     assert Liquor(chlorides, None).saturation(lean) > 1.05
     # salts that make others by exchange of their ions are not taken for two that keep to themselves
+    mixed = mixture_of(
+        ["water", "sodium nitrate", "potassium chloride"],
+        ["sodium nitrate"],
+        ["water"],
+        np.geomspace(1e-5, 4e-3, 7),
+    )
     with pytest.raises(CaseError, match="also make"):
-        mixed = mixture_of(
-            ["water", "sodium nitrate", "potassium chloride"],
-            ["sodium nitrate"],
-            ["water"],
-            np.geomspace(1e-5, 4e-3, 7),
-        )
-        given = {"water": 0.6, "sodium nitrate": 0.2, "potassium chloride": 0.2}
-        unit.operate(feed=feed(mixed, temperature="60 degC", liquid_flow="10 t/h", liquid=given))
+        _ = Liquor(mixed, None).salts

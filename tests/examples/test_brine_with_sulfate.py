@@ -11,8 +11,8 @@ pytestmark = pytest.mark.long
 
 
 def test_sulfate_leaves_with_the_purge():
-    """3.9 % of sulfate at the invariant point near 76 °C by Pitzer's equations; 4.4 in tables (Linke and Seidell,
-    recalled).
+    """4.4 % of sulfate at the invariant point in tables (Linke and Seidell; recalled), 3.9 by Pitzer's
+    equations.
     """
     run = gr.read(EXAMPLES / "brine-with-sulfate" / "line.toml").solve()
     assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
