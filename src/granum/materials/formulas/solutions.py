@@ -121,9 +121,9 @@ def dynamic_viscosity_jones_dole(
 
     The exponential begins as the law 1 + Bc and never turns negative. Ions that order water thicken it
     (sodium, sulfate), large ones of one charge thin it (potassium, iodide). A solute of which no B is known
-    is taken for spheres in Einstein's sense, B = 2.5 V with its molar volume: an estimate, half of what sugars
-    and organic acids do. Beyond 1 mol/L solutions thicken faster than this. The term in √c, below 2 % there,
-    is left out.
+    is taken for spheres in Einstein's sense, B = 2.5 V with its molar volume: an estimate, half of what
+    sugars and organic acids do. Beyond 1 mol/L solutions thicken faster than this. The term in √c, below 2
+    % there, is left out.
 
     Sodium chloride of 1 mol/L at 25 °C, 0.0793 L/mol: 0.97 mPa s is measured.
 
