@@ -105,6 +105,7 @@ from granum.materials.formulas.seawater import (
     seawater_viscosity as seawater_viscosity,
 )
 from granum.materials.formulas.solutions import (
+    dynamic_viscosity_jones_dole as dynamic_viscosity_jones_dole,
     dynamic_viscosity_laliberte as dynamic_viscosity_laliberte,
     liquid_density_laliberte as liquid_density_laliberte,
     specific_heat_capacity_laliberte as specific_heat_capacity_laliberte,
@@ -171,6 +172,7 @@ from granum.materials.solutes import (
     AdditiveHeats as AdditiveHeats,
     AdditiveVolumes as AdditiveVolumes,
     Branch as Branch,
+    DiluteViscosity as DiluteViscosity,
     LaliberteLaw as LaliberteLaw,
     NoLaw as NoLaw,
     SoluteSystem as SoluteSystem,
