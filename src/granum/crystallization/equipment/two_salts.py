@@ -82,9 +82,10 @@ class TwoSaltCrystallizer(Unit):
     Each salt alone has the solubility of the library, what they do to each other follows from Pitzer's
     equations; known for sodium and potassium with chloride or nitrate, and for chloride and sulfate of
     either. Two salts without a common ion make a reciprocal pair: give all four among the liquids, their
-    ions are exchanged. Crystals that form are those of the mixture, of the given sizes: there are no
-    kinetics here. The pressure is that at which the solution boils at its temperature. Crystals that come
-    with the feed dissolve where the solution has room.
+    ions are exchanged, and what is dissolved of each says no more than how many ions there are. Crystals
+    that form are those of the mixture, of the given sizes: there are no kinetics here. The pressure is that
+    at which the solution boils at its temperature. Crystals that come with the feed dissolve where the
+    solution has room.
     """
 
     temperature: Temperature
