@@ -37,6 +37,9 @@ heat = {s: -float(x.heat_duty) / float(x.crystal_flow) for s, x in cooled.items(
 water_per_salt = 1 / float(at["sodium chloride"][1].solubility_per_solvent)
 heat_boiling = water_per_salt * float(m.water_heat_of_vaporization("60 degC"))
 
+# ---- exchange
+first_crystal = c.reciprocal_saturation("25 degC", 0.5, 0.5)
+
 # ---- barrier
 KNO3 = {"crystal_density": "2110 kg/m^3", "molar_mass": "101.1 g/mol"}
 needed = {

@@ -37,6 +37,7 @@ SUGAR = elevations("sucrose", 0.10, 0.30, 0.50, 0.70, 0.80)
 salt_in_vacuum, sugar_in_vacuum = (
     float(elevation(name, share, VACUUM)) for name, share in (("sodium chloride", 0.282), ("sucrose", 0.70))
 )
+together = gr.crystallization.invariant_point("76 degC", "sodium chloride", "sodium sulfate")
 saltpeter = float(elevation("potassium nitrate", 0.77))
 molality = {name: 0.1 / 0.9 / m.solute(name).molar_mass for name in ("sodium chloride", "sucrose")}
 

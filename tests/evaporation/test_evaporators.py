@@ -2,10 +2,14 @@
 
 import re
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
+import granum as gr
+from granum.core.errors import CaseError
 from granum.core.notices import describe
+from granum.evaporation.boiling import Liquor
 from granum.evaporation.equipment.evaporator import Evaporator, RecompressionEvaporator
 from granum.evaporation.equipment.multiple_effect import MultipleEffectEvaporator
 from granum.streams.feeding import feed
@@ -195,3 +199,38 @@ def test_what_an_evaporator_cannot_do_names_the_setting_and_its_limit():
     # 4 t/h of water go on heat of some 2.2 MJ/kg through 2000 W/(m² K)
     duty = 2000.0 * most * float(large.figures.temperature_steam - large.figures.boiling_temperature)
     assert duty == pytest.approx(4000.0 / 3600.0 * 2.24e6 + 5000.0 / 3600.0 * 3500.0 * 44.0, rel=0.05)
+
+
+def test_two_salts_crystallize_together_where_both_are_saturated():
+    """What is left at 0.3 bar is the invariant solution: its activity of water makes it boil there, 19.0 % of
+    sodium and 17.7 % of potassium chloride at 75 °C (Linke and Seidell; recalled, between 50 and 100 °C).
+    """
+    names = ["sodium chloride", "potassium chloride"]
+    chlorides = mixture_of(["water", *names], names, ["water"], np.geomspace(1e-5, 4e-3, 7))
+    parts = {"water": 0.68, "sodium chloride": 0.18, "potassium chloride": 0.14}
+    entering = feed(chlorides, temperature="60 degC", liquid_flow="10 t/h", liquid=parts)
+    unit = Evaporator("38 m^2", "0.3 bar", "2 bar", drop_entrainment=1e-3)
+    made = unit.operate(feed=entering)
+    assert not refused(made)
+    closes(made, entering)
+    product, T = made.outlets.product, float(made.figures.boiling_temperature)
+    salt, potash = (float(x) for x in product.solid_by_species)
+    assert min(salt, potash) > 0.02
+    assert 100 * float(product.liquid_fractions[1]) == pytest.approx(17.7, abs=0.8)
+    assert 100 * float(product.liquid_fractions[2]) == pytest.approx(18.4, abs=0.9)
+    both = gr.crystallization.invariant_point(T)
+    steam = float(gr.materials.water_vapor_pressure(T)) * both.water_activity
+    assert steam == pytest.approx(3e4, rel=2e-3)
+    assert next(c for c in made.checks if c.name.startswith("dissolved")).ok
+    # more than that of one beside the other is told, also where neither is above its solubility in water
+    lean = product.replace(liquid=product.liquid * jnp.array([1.0, 1.1, 1.1]))
+    assert Liquor(chlorides, None).saturation(lean) > 1.05
+    # salts that make others by exchange of their ions are not taken for two that keep to themselves
+    mixed = mixture_of(
+        ["water", "sodium nitrate", "potassium chloride"],
+        ["sodium nitrate"],
+        ["water"],
+        np.geomspace(1e-5, 4e-3, 7),
+    )
+    with pytest.raises(CaseError, match="also make"):
+        _ = Liquor(mixed, None).salts

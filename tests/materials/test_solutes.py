@@ -19,6 +19,7 @@ from granum.core.errors import ApplicabilityError, InputError
 from granum.core.notices import describe
 from granum.core.sources import bibliography, keys_of
 from granum.materials.correlation import Owner
+from granum.materials.library import session
 
 # Entered without re-reading the book; tolerances are the spread seen between the two tables (13 % for
 # magnesium sulfate at 10 °C).
@@ -232,8 +233,10 @@ def test_solution_properties_against_printed_tables() -> None:
             assert found.liquid_density == pytest.approx(density, rel=4e-3), name
             if viscosity:
                 assert found.dynamic_viscosity * 1e3 == pytest.approx(viscosity, rel=0.05), name
-    # a gap in the library hides nothing else
-    assert np.isnan(m.solution_properties("20 degC", 0.1, "citric acid").dynamic_viscosity)
+    # by Einstein's law for its volume: 1.28 mPa s at 10 % in the handbook (recalled); told as an estimate
+    citric = m.solution_properties.evaluate("20 degC", 0.1, "citric acid")
+    assert 1e3 * citric.value.dynamic_viscosity == pytest.approx(1.28, rel=0.1)
+    assert citric.flags
     assert m.solution_properties("20 degC", 0.2, "citric acid").liquid_density == pytest.approx(
         1080.5, rel=0.01
     )
@@ -285,8 +288,8 @@ def test_names_and_errors() -> None:
         assert m.solute(word).name == "sodium sulfate", word
     assert m.solute("paracetamol in ethanol").solvent.name == "ethanol"
     assert float(m.solute("paracetamol in ethanol").solubility("30 degC")) == pytest.approx(0.21845, rel=2e-3)
-    with pytest.raises(ApplicabilityError, match="viscosity"):
-        m.solute("paracetamol in ethanol").solution_viscosity(300.0, 0.1)
+    thin = m.solute("paracetamol in ethanol").solvent.liquid_viscosity(300.0)
+    assert 1.1 * thin < float(m.solute("paracetamol in ethanol").solution_viscosity(300.0, 0.1)) < 1.5 * thin
     with pytest.raises(InputError, match="decahydrate"):
         m.solute("sodium sulfate").solubility(300.0, crystal="sodium sulfate decahidrate")
 
@@ -323,3 +326,37 @@ def test_a_property_names_the_crystal_only_where_it_is_called_otherwise_than_the
     crystals = (("salt", "sel"), ("salt dihydrate", "sel dihydraté"))
     named = [Owner.of_property("salt", "solubility", "sel", *crystal).label for crystal in crystals]
     assert named == ["salt: solubility", "salt: solubility (salt dihydrate)"]
+
+
+@pytest.mark.parametrize(
+    ("salt", "coefficient"),
+    [
+        ("sodium chloride", 0.085 - 0.005),
+        ("potassium chloride", -0.009 - 0.005),
+        ("potassium nitrate", -0.009 - 0.045),
+        ("potassium iodide", -0.009 - 0.073),
+        ("ammonium chloride", -0.008 - 0.005),
+        ("sodium sulfate", 2 * 0.085 + 0.206),
+        ("barium chloride", 0.229 - 2 * 0.005),
+        ("magnesium chloride", 0.385 - 2 * 0.005),
+    ],
+)
+def test_sums_over_ions_thicken_water_as_measured(salt: str, coefficient: float) -> None:
+    """Ions of Jenkins and Marcus (1995, recalled), by which the library fills gaps, at 0.5 mol/L and 25 °C
+    against Laliberté's fits of measurements, whose own misfit is 1 to 3 %.
+    """
+    s = m.solute(salt)
+    w = 500.0 * float(s.molar_mass) / 1030.0
+    c = w * float(s.solution_density(298.15, w / (1.0 - w))) / float(s.molar_mass)
+    found = m.dynamic_viscosity_jones_dole(8.90e-4, c, 1e-3 * coefficient)
+    assert found == pytest.approx(float(s.solution_viscosity(298.15, w / (1.0 - w))), rel=0.03)
+
+
+def test_every_solute_has_a_viscosity() -> None:
+    """Large single-charged ions thin water, hydrated ones thicken it, by no more than measured salts do."""
+    for name in session().names("solute"):
+        s = session().solute(name)
+        pure = float(s.solvent.liquid_viscosity(298.15))
+        ratio = float(s.viscosity_law(298.15, 0.05)) / pure
+        assert 0.9 < ratio < 1.6, name
+    assert float(m.solute("cesium iodide").solution_viscosity(298.15, 0.2)) < 8.9e-4

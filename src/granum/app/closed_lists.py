@@ -12,7 +12,7 @@ from granum.comminution.work_indices import work_indices
 from granum.core.i18n import _, current_language
 from granum.core.parameters import Parameter
 from granum.core.words import plain
-from granum.materials.common_ion import salts_of_pairs
+from granum.materials.brines import salts_of_pairs
 from granum.materials.library import session
 from granum.particles.sieves import sieve_table
 from granum.streams.dusts import dusts

@@ -18,6 +18,7 @@ from granum.crystallization.charts_melt import (
     zone_refining_chart as zone_refining_chart,
 )
 from granum.crystallization.charts_salts import (
+    reciprocal_chart as reciprocal_chart,
     two_salts_chart as two_salts_chart,
 )
 from granum.crystallization.charts_solutions import (
@@ -50,6 +51,10 @@ from granum.crystallization.equipment.batch import (
 )
 from granum.crystallization.equipment.boiling import (
     Boiling as Boiling,
+)
+from granum.crystallization.equipment.brines import (
+    Crystallizing as Crystallizing,
+    Salts as Salts,
 )
 from granum.crystallization.equipment.controlled import (
     ControlledBatchCrystallizer as ControlledBatchCrystallizer,
@@ -480,10 +485,13 @@ from granum.crystallization.vessels.classified_bed import (
     Upflow as Upflow,
 )
 from granum.crystallization.vessels.common_ion import (
+    Diagram as Diagram,
     InvariantPoint as InvariantPoint,
     Isotherm as Isotherm,
     Path as Path,
+    ReciprocalSaturation as ReciprocalSaturation,
     invariant_point as invariant_point,
+    reciprocal_saturation as reciprocal_saturation,
 )
 from granum.crystallization.vessels.crystals import (
     Crystal as Crystal,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 import plotly.graph_objects as go
 
@@ -11,13 +13,24 @@ from granum.core import chart
 from granum.core.charts import HEAT, LINES, OUT
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import MassFraction, Series, Temperature
+from granum.core.kinds import Fraction, MassFraction, Series, Temperature
 from granum.core.units import format_number
 from granum.crystallization.charts_triangle import add_on_triangle, celsius, lay_out_triangle
-from granum.crystallization.vessels.common_ion import Isotherm, crystallization_path, isotherm
-from granum.materials.common_ion import COLDEST, HOTTEST, common_ion
+from granum.crystallization.vessels.common_ion import (
+    Isotherm,
+    crystallization_path,
+    diagram,
+    four_of,
+    ion_shares,
+    isotherm,
+    pair_of,
+    parted,
+)
+from granum.materials.activities import SLACK
+from granum.materials.brines import Brine
 
 TIES = 4  # tie lines of each branch
+DRIED, DRYING = 120.0, 30  # mol of charge per kg of water at the end of a path, and its points
 SALTIEST = 0.95  # of a liquor; more is a moist salt
 
 
@@ -62,16 +75,10 @@ def two_salts_chart(
             name="solute_mass_fraction_second",
         )
     temperatures = np.atleast_1d(np.asarray(isotherm_temperatures, dtype=float))
+    pair = pair_of(first_salt, second_salt)
     for T in temperatures:
-        if not COLDEST <= T <= HOTTEST:
-            raise InputError(
-                _("Both salts are known from {low} to {high}, not at {where}.").format(
-                    low=celsius(COLDEST), high=celsius(HOTTEST), where=celsius(T)
-                ),
-                name="isotherm_temperatures",
-            )
-    pair = common_ion(first_salt, second_salt)
-    names = [system.branch().crystal.label for system in (pair.first, pair.second)]
+        _within(pair, T, "isotherm_temperatures")
+    names = [system.label for system in pair.salts]
     drawing = go.Figure()
     for T, color in zip(temperatures, LINES * 10, strict=False):
         found = isotherm(pair, float(T))
@@ -86,7 +93,7 @@ def two_salts_chart(
         tied = _("tie lines, {where}").format(where=word)
         thin = line | {"width": 1, "dash": "dot"}
         add_on_triangle(
-            drawing, *_ties(found), tied, mode="lines", line=thin, showlegend=False, hoverinfo="skip"
+            drawing, *_ties(pair, found), tied, mode="lines", line=thin, showlegend=False, hoverinfo="skip"
         )
     if one + other > 0.0:
         hot, cold = float(temperatures.max()), float(temperatures.min())
@@ -102,11 +109,117 @@ def two_salts_chart(
     return drawing
 
 
-def _ties(found: Isotherm) -> tuple[np.ndarray, np.ndarray]:
-    """Straight lines from saturated solutions to the corners of their crystals, with gaps between them."""
-    last = len(found.first) - 1
-    ends = [(i, (1.0, 0.0)) for i in np.linspace(0, found.corner, TIES).astype(int)]
-    ends += [(i, (0.0, 1.0)) for i in np.linspace(found.corner, last, TIES).astype(int)]
-    x = [(found.first[i], corner[0], np.nan) for i, corner in ends]
-    y = [(found.second[i], corner[1], np.nan) for i, corner in ends]
-    return np.ravel(x), np.ravel(y)
+def _within(salts: Brine, T: float, name: str) -> None:
+    low, high = salts.limits
+    if not low - SLACK <= T <= high + SLACK:
+        raise InputError(
+            _("The salts are known beside each other from {low} to {high}, not at {where}.").format(
+                low=celsius(low), high=celsius(high), where=celsius(T)
+            ),
+            name=name,
+        )
+
+
+def _ties(pair: Brine, found: Isotherm) -> tuple[np.ndarray, np.ndarray]:
+    """Straight lines from saturated solutions to their crystals, with gaps between them."""
+    last, x, y = len(found.first) - 1, [], []
+    ends = [
+        *np.linspace(0, found.corner, TIES).astype(int),
+        *np.linspace(found.corner, last, TIES).astype(int),
+    ]
+    for turn, i in enumerate(ends):
+        crystal = pair.crystals[found.crystals[i]]
+        salt = crystal.salt
+        if i == found.corner:  # both crystals: one on the way there, the other from there on
+            salt = 0 if turn < TIES else 1
+            beside = found.crystals[i - 1 if turn < TIES else min(i + 1, last)]
+            crystal = pair.crystals[beside]
+        dry = 1.0 / float(crystal.branch.hydrate_ratio)
+        x += [found.first[i], dry if salt == 0 else 0.0, np.nan]
+        y += [found.second[i], dry if salt == 1 else 0.0, np.nan]
+    return np.array(x), np.array(y)
+
+
+@chart(
+    source="pitzer1974mixed; mullin2001, ch. 4",
+    title="Reciprocal pair of salts: Jänecke's square",
+    typical={"temperature": (288.15, 308.15), "cation_share": (0.2, 0.8), "anion_share": (0.2, 0.8)},
+)
+def reciprocal_chart(
+    temperature: Temperature,
+    first_salt: str = "sodium nitrate",
+    second_salt: str = "potassium chloride",
+    cation_share: Fraction | None = None,
+    anion_share: Fraction | None = None,
+) -> Any:
+    """Fields in which each of four salts crystallizes first, with the water of the saturated solutions, over
+    the shares of the ions by charge; and the path of a solution that loses water.
+
+    A solution moves straight away from the corner of the crystal that forms, to the border of its field and
+    along that to where three salts are saturated. Of the two diagonals that pair is stable together which no
+    other field cuts: the other two salts convert into it.
+
+    >>> drawing = reciprocal_chart(temperature="25 degC", cation_share=0.5, anion_share=0.5)
+    >>> [trace.name for trace in drawing.data if trace.showlegend][-1]
+    'as water is taken off'
+    """
+    T = float(temperature)
+    salts = four_of(first_salt, second_salt)
+    _within(salts, T, "temperature")
+    found = diagram(salts, T)
+    drawing = go.Figure()
+    shares = 100.0 * found.shares
+    there = [k for k in range(len(salts.crystals)) if np.any(found.crystal == k)]
+    for k, color in zip(there, LINES * 10, strict=False):
+        rows, columns = np.nonzero(found.crystal == k)
+        mark = {"color": color, "size": 9, "symbol": "square", "opacity": 0.35}
+        drawing.add_scatter(
+            x=shares[columns],
+            y=shares[rows],
+            mode="markers",
+            marker=mark,
+            name=salts.crystals[k].branch.crystal.label,
+            showlegend=True,
+            hoverinfo="skip",
+        )
+    drawing.add_contour(
+        x=shares,
+        y=shares,
+        z=found.water,
+        contours={"coloring": "none", "showlabels": True},
+        line={"color": OUT, "width": 1},
+        name=_("water, kg/kg of salts"),
+        showscale=False,
+        showlegend=True,
+    )
+    if len(found.invariant):
+        drawing.add_scatter(
+            x=100.0 * found.invariant[:, 0],
+            y=100.0 * found.invariant[:, 1],
+            mode="markers",
+            marker={"color": OUT, "size": 11, "symbol": "diamond"},
+            name=_("three salts saturated"),
+            showlegend=True,
+        )
+    if cation_share is not None and anion_share is not None:
+        x, y = _dried(salts, T, float(cation_share), float(anion_share))
+        line = {"color": HEAT, "width": 3}
+        name = _("as water is taken off")
+        drawing.add_scatter(
+            x=100.0 * x, y=100.0 * y, mode="lines+markers", line=line, name=name, showlegend=True
+        )
+    cations, anions = salts.ions[:2], salts.ions[2:]
+    drawing.update_xaxes(
+        title=_("{ion} among the cations, % by charge").format(ion=cations[1]), range=[0, 100]
+    )
+    drawing.update_yaxes(title=_("{ion} among the anions, % by charge").format(ion=anions[1]), range=[0, 100])
+    return drawing
+
+
+def _dried(salts: Brine, T: float, cation: float, anion: float) -> tuple[np.ndarray, np.ndarray]:
+    """Shares of the ions in a solution from where it is thin to where nearly all has crystallized."""
+    (a, b), (c, d) = salts.charges
+    ions = np.array([(1.0 - cation) / a, cation / b, (1.0 - anion) / c, anion / d])
+    amounts = np.geomspace(0.5, DRIED, DRYING)[:, None] * ions
+    left = jax.vmap(lambda n: parted(salts, T, n).molalities)(jnp.asarray(amounts))
+    return tuple(ion_shares(salts, left).T)

@@ -8,15 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core.errors import CaseError
 from granum.core.i18n import _
+from granum.crystallization.equipment.brines import Salts, salts_of
 from granum.crystallization.equipment.roles import Roles, roles, with_crystals
+from granum.materials.brines import Boiling
 from granum.materials.fluids import Fluid
 from granum.materials.solutes import Branch
 from granum.numerics import find_root
@@ -93,6 +97,11 @@ class Liquor:
                 ).format(solutes=", ".join(s.name for s in m.liquids[1:]))
             )
 
+    @cached_property
+    def salts(self) -> Salts | None:
+        """Two or more salts whose ions are known beside each other: they crystallize together."""
+        return salts_of(self.mixture)
+
     @property
     def solvent(self) -> Fluid:
         """The first liquid, pure."""
@@ -117,8 +126,12 @@ class Liquor:
 
     @property
     def crystals(self) -> list[Forming]:
-        """Crystals of the first solute that has any among the solids, the one stable in the cold first."""
+        """Crystals of the first solute that has any among the solids, the one stable in the cold first; none
+        where several salts crystallize together.
+        """
         m, found = self.mixture, []
+        if self.salts is not None:
+            return []
         dissolved = {s.name for s in m.liquids[1:]}
         for solid in m.solids:
             if dissolved & {name for name, _share in solid.composition}:
@@ -145,7 +158,12 @@ class Liquor:
         return low, high
 
     def saturation(self, product: Stream, solutes: Collection[int] | None = None) -> Any:
-        """The largest concentration over its solubility of the solutes of the library, or of some."""
+        """The largest concentration over its solubility of the solutes of the library, or of some; of salts
+        together that of the activities of their ions, also for crystals that the mixture has not.
+        """
+        if self.salts is not None:
+            molalities = self.salts.ions(product.liquid) / jnp.maximum(product.liquid[0], 1e-300)
+            return jnp.exp(jnp.max(self.salts.brine.saturation(product.temperature, molalities)))
         m, T, solvent = self.mixture, product.temperature, jnp.maximum(product.liquid[0], 1e-300)
         over = [jnp.zeros(())]
         for i, liquid in enumerate(m.liquids[1:], start=1):
@@ -163,6 +181,9 @@ class Liquor:
             w = 1.0 - safe_divide(liquid[0], jnp.sum(liquid), 1.0)
             return T - pure - self.elevation[0] * w - self.elevation[1] * w**2
         raised = jnp.log(self.vapor_pressure(T)) - jnp.log(self.vapor_pressure(pure))
+        if self.salts is not None:
+            activity = self.salts.brine.water_activity(T, self.salts.ions(liquid) / solvent)
+            return raised + jnp.log(activity)
         for i, law in enumerate(activity_laws(self.mixture), start=1):
             if law is not None:
                 raised = raised + jnp.log(law(T, liquid[i] / solvent))
@@ -208,41 +229,86 @@ class Liquor:
         return _Split(gone, [formed if i == k else jnp.zeros(()) for i in range(len(forming))], left, free)
 
 
-def boil(liquor: Liquor, feed: Stream, chest: Any, pure: Any, conductance: Any, sizes: LogNormal) -> Effect:
-    """An effect whose solvent would boil at ``pure`` (K), heated from a chest temperature through a wall of
-    a conductance (W/K).
-    """
-    mixture = liquor.mixture
-    hottest = jnp.maximum(jnp.maximum(chest, feed.temperature), pure) + SPAN
-
-    def excess(T: Any) -> Any:
-        return liquor.excess(T, pure, liquor.split(feed, conductance * (chest - T), T).liquid)
-
-    root = find_root(excess, pure - 1.0, hottest, start=pure + 2.0)  # pure solvent boils at its end
-    T = root.value
-    duty = conductance * (chest - T)
-    made = liquor.split(feed, duty, T)
-    # once more where its flags are heard; no solution boils where one crystal gives way to another
-    boils = jnp.abs(liquor.excess(T, pure, made.liquid)) < 1e-6
+def _grown(liquor: Liquor, feed: Stream, made: _Split, sizes: LogNormal) -> tuple[Any, Any]:
+    """The solid with the crystals of one solute, and what has formed of them."""
     solid, grown = feed.solid, jnp.zeros(())
+    passing = sizes(jnp.asarray(feed.mixture.edges)).at[0].set(0.0).at[-1].set(1.0)
     for forming, crystals in zip(liquor.crystals, made.crystals, strict=True):
         role = forming.roles
         fed = jnp.sum(feed.solid[role.solid], axis=tuple(range(1, feed.solid[0].ndim)))
         before = jnp.sum(fed)
         kept = fed * jnp.minimum(safe_divide(crystals, before, 0.0), 1.0)
-        passing = sizes(jnp.asarray(mixture.edges)).at[0].set(0.0).at[-1].set(1.0)
         fresh = jnp.diff(passing) * jnp.maximum(crystals - before, 0.0)
         solid = with_crystals(feed.replace(solid=solid), role, kept + fresh)
         grown = grown + jnp.maximum(crystals - before, 0.0)
+    return solid, grown
+
+
+def _boil_together(liquor: Liquor, salts: Salts, feed: Stream, chest: Any, pure: Any, wall: Any) -> Any:
+    """Boiling temperature, what happens there, and whether it was found, where all salts crystallize that are
+    saturated beside each other.
+    """
+    mixture, masses = liquor.mixture, salts.crystal_masses
+    solids = np.array([f.solid for f in salts.forming], dtype=int)
+    before = jnp.sum(feed.solid[solids].reshape(len(solids), -1), axis=1) / masses
+    dissolved = salts.all_dissolved(feed)
+    places = np.array((*salts.liquids, 0))
+
+    def gone(T: Any) -> tuple[Any, Any]:
+        liquid, solid, gas = (mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
+        latent = gas[liquor.vapor] - liquid[0]
+        lower = solid[solids] * masses - salts.made_of @ liquid[places]
+        given = feed.enthalpy_flow + wall * (chest - T) - feed.enthalpy_at(T) + lower @ before
+        return given / latent, lower / latent
+
+    def excess(T: Any, log_water: Any, fraction: Any) -> Any:
+        if liquor.elevation is not None:
+            return T - pure - liquor.elevation[0] * fraction - liquor.elevation[1] * fraction**2
+        return jnp.log(liquor.vapor_pressure(T)) - jnp.log(liquor.vapor_pressure(pure)) + log_water
+
+    boiling = Boiling(gone, excess, DRIEST)
+    made = salts.brine.equilibrium(pure - 1e-3, dissolved[0], salts.ions(dissolved), salts.which, boiling)
+    left = salts.left(dissolved, made.crystals)
+    split = _Split(made.evaporated, list(made.crystals), left.at[0].add(-made.evaporated), left[0])
+    return made.temperature, split, made.found
+
+
+def _boil_alone(liquor: Liquor, feed: Stream, chest: Any, pure: Any, wall: Any) -> Any:
+    """Boiling temperature, what happens there, and whether it was found, where one solute crystallizes."""
+    hottest = jnp.maximum(jnp.maximum(chest, feed.temperature), pure) + SPAN
+
+    def excess(T: Any) -> Any:
+        return liquor.excess(T, pure, liquor.split(feed, wall * (chest - T), T).liquid)
+
+    root = find_root(excess, pure - 1.0, hottest, start=pure + 2.0)  # pure solvent boils at its end
+    made = liquor.split(feed, wall * (chest - root.value), root.value)
+    # once more where its flags are heard; no solution boils where one crystal gives way to another
+    boils = jnp.abs(liquor.excess(root.value, pure, made.liquid)) < 1e-6
+    return root.value, made, root.converged & boils
+
+
+def boil(liquor: Liquor, feed: Stream, chest: Any, pure: Any, conductance: Any, sizes: LogNormal) -> Effect:
+    """An effect whose solvent would boil at ``pure`` (K), heated from a chest temperature through a wall of
+    a conductance (W/K).
+    """
+    mixture = liquor.mixture
+    if liquor.salts is not None:
+        T, made, found = _boil_together(liquor, liquor.salts, feed, chest, pure, conductance)
+        crystals = jnp.stack(made.crystals) if made.crystals else jnp.zeros(0)
+        solid = liquor.salts.crystallized(feed, crystals, sizes)
+        grown = jnp.sum(jnp.maximum(jnp.sum(solid - feed.solid, axis=tuple(range(1, solid.ndim))), 0.0))
+        liquor.salts.brine.heard(T)
+    else:
+        T, made, found = _boil_alone(liquor, feed, chest, pure, conductance)
+        solid, grown = _grown(liquor, feed, made, sizes)
+    duty = conductance * (chest - T)
     pressure = liquor.vapor_pressure(pure)
     product = feed.replace(solid=solid, liquid=made.liquid, temperature=T, pressure=pressure)
     steam = empty(mixture, T).replace(pressure=pressure)
     vapor = steam.replace(gas=steam.gas.at[liquor.vapor].set(made.evaporation))
     left = 1.0 - safe_divide(made.evaporation, made.most, 0.0)
     taken = product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow
-    return Effect(
-        T, pure, pressure, made.evaporation, grown, product, vapor, duty, taken, root.converged & boils, left
-    )
+    return Effect(T, pure, pressure, made.evaporation, grown, product, vapor, duty, taken, found, left)
 
 
 def entrained(made: Effect, carried: Any) -> tuple[Stream, Stream]:

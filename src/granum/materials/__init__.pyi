@@ -6,8 +6,11 @@ from granum.materials.activities import (
     NoActivity as NoActivity,
     SucroseActivity as SucroseActivity,
 )
-from granum.materials.common_ion import (
-    CommonIon as CommonIon,
+from granum.materials.brines import (
+    Boiling as Boiling,
+    Brine as Brine,
+    Equilibrium as Equilibrium,
+    Forms as Forms,
     Mixing as Mixing,
 )
 from granum.materials.correlation import (
@@ -27,9 +30,6 @@ from granum.materials.formulas.activity import (
     solvent_activity_raoult as solvent_activity_raoult,
     water_activity_osmotic as water_activity_osmotic,
     water_activity_starzak_peacock as water_activity_starzak_peacock,
-)
-from granum.materials.formulas.common_ion import (
-    Binary as Binary,
 )
 from granum.materials.formulas.correlations import (
     correlation_aly_lee as correlation_aly_lee,
@@ -73,6 +73,10 @@ from granum.materials.formulas.ice import (
     ice_melting_pressure as ice_melting_pressure,
     ice_vapor_pressure as ice_vapor_pressure,
 )
+from granum.materials.formulas.mixed_electrolytes import (
+    Coefficients as Coefficients,
+    electrostatic_mixing_function as electrostatic_mixing_function,
+)
 from granum.materials.formulas.precipitation import (
     activity_coefficient_davies as activity_coefficient_davies,
     deprotonated_fraction as deprotonated_fraction,
@@ -103,6 +107,7 @@ from granum.materials.formulas.seawater import (
     seawater_viscosity as seawater_viscosity,
 )
 from granum.materials.formulas.solutions import (
+    dynamic_viscosity_jones_dole as dynamic_viscosity_jones_dole,
     dynamic_viscosity_laliberte as dynamic_viscosity_laliberte,
     liquid_density_laliberte as liquid_density_laliberte,
     specific_heat_capacity_laliberte as specific_heat_capacity_laliberte,
@@ -169,6 +174,7 @@ from granum.materials.solutes import (
     AdditiveHeats as AdditiveHeats,
     AdditiveVolumes as AdditiveVolumes,
     Branch as Branch,
+    DiluteViscosity as DiluteViscosity,
     LaliberteLaw as LaliberteLaw,
     NoLaw as NoLaw,
     SoluteSystem as SoluteSystem,

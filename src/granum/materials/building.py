@@ -37,6 +37,7 @@ from granum.materials.solutes import (
     AdditiveHeats,
     AdditiveVolumes,
     Branch,
+    DiluteViscosity,
     LaliberteLaw,
     NoLaw,
     SoluteSystem,
@@ -316,6 +317,15 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         parts = (solvent.liquid_heat_capacity, dry.heat_capacity)
         gap = next((part for part in parts if isinstance(part, Missing)), None)
         heat_capacity = NoLaw(gap) if gap is not None else AdditiveHeats(*parts)
+    if viscosity is None:
+        parts = (solvent.liquid_viscosity, dry.density, solvent.liquid_density)
+        gap = next((part for part in parts if isinstance(part, Missing)), None)
+        volumes = density or AdditiveVolumes(solvent.liquid_density, dry.density)
+        viscosity = (
+            NoLaw(gap)
+            if gap is not None
+            else DiluteViscosity(parts[0], volumes, dry.density, entry.molar_mass, entry.viscosity_b)
+        )
     system = SoluteSystem(
         name=key.split(" in ")[0],
         french=entry.fr,
@@ -324,8 +334,7 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         solvent=solvent,
         branches=branches,
         density_law=density or AdditiveVolumes(solvent.liquid_density, dry.density),
-        viscosity_law=viscosity
-        or NoLaw(Missing(Owner.of_property(key, "viscosity of the solution", entry.fr))),
+        viscosity_law=viscosity,
         heat_capacity_law=heat_capacity,
         solute_heat_capacity=nan,
         activity_law=_activity(key, entry, solvent),

@@ -205,6 +205,7 @@ class SoluteEntry(_Named):
         default=None, min_length=3, max_length=3, description="K, K, largest mass fraction of solute"
     )
     viscosity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
+    viscosity_b: float | None = Field(default=None, description="Jones and Dole's coefficient, L/mol")
     heat_capacity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
     water_activity: ActivityEntry | None = None
 

@@ -28,6 +28,7 @@ from granum.materials.correlation import (
     as_temperature,
 )
 from granum.materials.fluids import Fluid
+from granum.materials.formulas.solutions import dynamic_viscosity_jones_dole
 from granum.materials.solids import Solid
 from granum.numerics import find_root
 
@@ -311,6 +312,7 @@ class SoluteSystem(eqx.Module):
         return _("solute {name} ({formula})").format(name=self.label, formula=self.formula)
 
 
+EINSTEIN = 2.5
 SLACK = 0.51  # K: the limits of the source are rounded
 
 
@@ -334,6 +336,30 @@ class LaliberteLaw(eqx.Module):
                 flags.EXTRAPOLATED, w > most * (1.0 + 1e-3), w, "solute_mass_fraction", key, 0.0, most, source
             )
         return self.form(temperature, solute_mass_fraction, np.asarray(self.coefficients))
+
+
+class DiluteViscosity(eqx.Module):
+    """Viscosity of a solution by Jones and Dole's coefficient, L/mol, or where none is known by Einstein's
+    law for the volume of the solute as a solid, which is flagged as an estimate.
+    """
+
+    solvent: Any
+    density: Any
+    dry: Any
+    molar_mass: float
+    coefficient: float | None = eqx.field(static=True)
+    is_missing = False
+
+    def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
+        w = jnp.asarray(solute_mass_fraction)
+        c = w * self.density(temperature, w) / self.molar_mass
+        if self.coefficient is None:
+            B = EINSTEIN * self.molar_mass / self.dry(temperature)
+            key, source = dynamic_viscosity_jones_dole.card.key, dynamic_viscosity_jones_dole.source
+            flags.record(flags.EXTRAPOLATED, w > 0.0, w, "solute_mass_fraction", key, 0.0, 0.0, source)
+        else:
+            B = 1e-3 * self.coefficient
+        return dynamic_viscosity_jones_dole(self.solvent(temperature), jnp.maximum(c, 0.0), B)
 
 
 class AdditiveVolumes(eqx.Module):

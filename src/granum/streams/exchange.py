@@ -9,6 +9,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from granum.core.compiling import once
 from granum.core.errors import InputError
 from granum.materials.ions import Ions, ions_of
@@ -80,16 +82,49 @@ def exchanges(
     return out
 
 
+def reciprocal(names: Sequence[str], formulas: Mapping[str, str]) -> dict[str, float]:
+    """The four salts of two cations and two anions among liquids, with how many moles of each are made when
+    the ions of two are exchanged; none where they are not all there.
+    """
+    ions = {name: found for name in names if (found := ions_of(formulas.get(name, ""))) is not None}
+    cations = list(dict.fromkeys(i.cation for i in ions.values()))
+    anions = list(dict.fromkeys(i.anion for i in ions.values()))
+    if len(ions) != 4 or len(cations) != 2 or len(anions) != 2:
+        return {}
+    signs = {(c, a): (-1.0) ** (i + j) for i, c in enumerate(cations) for j, a in enumerate(anions)}
+    if {(i.cation, i.anion) for i in ions.values()} != set(signs):
+        return {}
+    return {n: signs[i.cation, i.anion] / (i.cation_count * i.cation_charge) for n, i in ions.items()}
+
+
+def additive(
+    liquids: Sequence[Species], four: Mapping[str, float], formulas: Mapping[str, str]
+) -> Sequence[Species]:
+    """The liquids with heat capacities of four salts that are sums over their ions, so that no heat depends
+    on which salts a solution of the ions is counted as; all four are shifted alike, by mole of charge.
+    """
+    if not four:
+        return liquids
+    masses = {n: i.anhydrous_mass for n in four if (i := ions_of(formulas[n])) is not None}
+    curves = {s.name: np.polynomial.Polynomial(s.heat_capacity) for s in liquids if s.name in four}
+    off = sum(four[n] * masses[n] * curves[n] for n in four) / len(four)
+    shifted = {n: curves[n] - off / (four[n] * masses[n]) for n in four}
+    return [replace(s, heat_capacity=tuple(shifted[s.name].coef)) if s.name in four else s for s in liquids]
+
+
 def by_ions(
     known: Library, solids: Sequence[Species], liquids: Sequence[Species], formulas: Mapping[str, str]
 ) -> tuple[tuple[Species, ...], tuple[Species, ...]]:
     """Solids and liquids with their ions as components, where some liquids can make a solid by exchanging
-    them; as they are where none can. The heat of dissolution places the solid.
+    them, or are the four salts of two cations and two anions; as they are where none can.
+    The heat of dissolution places the solid.
     """
     names = [s.name for s in liquids]
     possible = {s.name: exchanges(known, s.name, names, formulas) for s in solids}
-    if not any(possible.values()):
+    four = reciprocal(names, formulas)
+    if not any(possible.values()) and not four:
         return tuple(solids), tuple(liquids)
+    liquids = additive(liquids, four, formulas)
     parts = {
         name: ions.shares for name, formula in formulas.items() if (ions := ions_of(formula)) is not None
     }

@@ -58,7 +58,7 @@ def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
         for i, item in enumerate(mixture.liquids)
         if [n for n, _share in item.composition] == [n for n, _share in anhydrous]
     ]
-    if len(anhydrous) != 1 or not pure:
+    if not anhydrous or not pure:
         raise CaseError(
             _(
                 "The mixture has no dissolved form of '{crystal}': a liquid species made of {parts} "
@@ -68,7 +68,7 @@ def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
     vapors = [
         i for i, item in enumerate(mixture.gases) if [n for n, _share in item.composition] == [component]
     ]
-    return Roles(s, pure[0], w, vapors[0] if vapors else None, anhydrous[0][1])
+    return Roles(s, pure[0], w, vapors[0] if vapors else None, sum(share for _name, share in anhydrous))
 
 
 def refuse_boiling(vapor: Any, product: Stream, feed: Stream, found: Roles, card: Any) -> None:

@@ -1,4 +1,4 @@
-"""A crystallizer for two salts with a common ion, cooled or evaporative, at equilibrium."""
+"""A crystallizer for salts beside each other, cooled or evaporative, at equilibrium."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.errors import CaseError
+from granum.core.errors import CaseError, unknown_name
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Fraction,
@@ -23,18 +24,20 @@ from granum.core.kinds import (
     WaterActivity,
 )
 from granum.core.limits import Limit
+from granum.crystallization.equipment.brines import Salts, salts_of
 from granum.crystallization.equipment.in_time import Crystallized
-from granum.crystallization.equipment.roles import given_off, refuse_boiling, roles, with_crystals
+from granum.crystallization.equipment.roles import given_off, refuse_boiling, roles
 from granum.crystallization.kinds import VesselVolume
-from granum.crystallization.vessels.common_ion import parted
-from granum.materials.common_ion import CommonIon, common_ion
+from granum.materials.brines import SOLVENT, Equilibrium, brine
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated, suspended
 
-WATER = "water"
+_NOT_FOUND = (
+    "What crystallizes beside what was not found: give more water, less evaporation or another temperature."
+)
 SOURCE = "greenberg1989; mullin2001, ch. 4"
 
 
@@ -56,35 +59,33 @@ class TwoSaltFigures(NamedTuple):
 
 
 class Parted(NamedTuple):
-    """Water left and molality of both salts in it, crystals of both (kg/s), the pair and its places in the
-    mixture.
+    """Salts of the mixture, which of the brine's the two are, what is left in solution, and the stream that
+    is.
     """
 
-    water: Any
-    molalities: tuple[Any, Any]
-    crystals: tuple[Any, Any]
-    pair: CommonIon
-    places: tuple[Any, Any]
+    salts: Salts
+    chosen: tuple[int, int]
+    left: Equilibrium
+    product: Stream
 
 
 @equipment(
     "two_salt_crystallizer",
     source=SOURCE,
-    title="Crystallizer of two salts with a common ion, at equilibrium",
-    equation=(
-        r"m_{M}\,m_{X}\,\gamma_{\pm,MX}^2 \le K_{MX}(T),\quad "
-        r"m_{N}\,m_{X}\,\gamma_{\pm,NX}^2 \le K_{NX}(T)"
-    ),
+    title="Crystallizer of salts beside each other, at equilibrium",
+    equation=r"\prod_i \left(m_i\,\gamma_i\right)^{\nu_i} a_w^{h} \le K(T)\ \text{for each crystal}",
 )
 class TwoSaltCrystallizer(Unit):
-    """Cools or evaporates a solution of two salts that share an ion, and leaves it at equilibrium: one salt
-    crystallizes while the other stays below saturation, both where the solution has reached the invariant
-    point.
+    """Cools or evaporates a solution of two salts and leaves it at equilibrium: what is saturated beside the
+    others crystallizes, one salt, or more where the solution has reached an invariant point.
 
     Each salt alone has the solubility of the library, what they do to each other follows from Pitzer's
-    equations; known for sodium and potassium chloride. Fresh crystals have the given sizes: there are no
-    kinetics here. The pressure is that at which the solution boils at its temperature. Crystals that come
-    with the feed dissolve where the solution has room.
+    equations; known for sodium and potassium with chloride or nitrate, and for chloride and sulfate of
+    either. Two salts without a common ion make a reciprocal pair: give all four among the liquids, their
+    ions are exchanged, and what is dissolved of each says no more than how many ions there are. Crystals
+    that form are those of the mixture, of the given sizes: there are no kinetics here. The pressure is that
+    at which the solution boils at its temperature. Crystals that come with the feed dissolve where the
+    solution has room.
     """
 
     temperature: Temperature
@@ -99,73 +100,82 @@ class TwoSaltCrystallizer(Unit):
         "crowded": Limit(
             "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
         ),
+        "saturated": Limit(
+            "dissolved over solubility at the outlet", 0.0, 1.0001, "dimensionless", "mullin2001, ch. 3"
+        ),
         "time": Limit("residence time", 600.0, 36000.0, "s", "mullin2001, ch. 9"),
     }
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
-    def inside(self, feed: Stream) -> Parted:
-        m = feed.mixture
-        names = [s.name for s in m.liquids]
-        if len(names) < 3:
-            raise CaseError(_("Two salts in water are needed among the liquids."))
-        salts = [name for name in names if name != WATER]
-        chosen = (self.first_salt or salts[0], self.second_salt or salts[1])
-        places = tuple(roles(m, name, WATER) for name in chosen)
-        pair = common_ion(*chosen, m.materials)
-        water = feed.liquid[places[0].solvent] - self.evaporation
-        masses, T = pair.molar_masses, self.temperature
-        crystals = [jnp.sum(feed.solid[p.solid]) for p in places]
-        amounts = [(feed.liquid[p.solute] + c) / M for p, c, M in zip(places, crystals, masses, strict=True)]
-        some = water > 0.0
-        given = [jnp.where(some, n / jnp.where(some, water, 1.0), 0.0) for n in amounts]
-        left = parted(pair, T, *given)
-        # by difference, so that what stays dissolved to the last gram makes no crystals by rounding
-        made = [
-            jnp.where(some, jnp.maximum(g - kept, 0.0) * water * M, n * M)
-            for g, kept, n, M in zip(given, left, amounts, masses, strict=True)
+    def _chosen(self, salts: Salts) -> tuple[int, int]:
+        """Places among the brine's salts of the two that figures are given of: those named, or the first two
+        that crystallize.
+        """
+        names = [s.name for s in salts.brine.salts]
+        for name in (self.first_salt, self.second_salt):
+            if name and name not in names:
+                raise unknown_name(_("Salt"), name, names)
+        crystallizing = list(dict.fromkeys(salts.brine.crystals[k].salt for k in salts.which))
+        others = [
+            k
+            for k in (*crystallizing, *range(len(names)))
+            if names[k] not in (self.first_salt, self.second_salt)
         ]
-        pair.saturation(T, *left)  # once more where its flags are heard
-        return Parted(water, left, (made[0], made[1]), pair, (places[0], places[1]))
+        first = names.index(self.first_salt) if self.first_salt else others.pop(0)
+        return first, names.index(self.second_salt) if self.second_salt else others.pop(0)
+
+    def inside(self, feed: Stream) -> Parted:
+        salts = salts_of(feed.mixture)
+        if salts is None or not salts.forming:
+            names = [s.name for s in feed.mixture.liquids]
+            if len(names) < 3 or names[0] != SOLVENT:
+                raise CaseError(_("Two salts in water are needed among the liquids, water first."))
+            brine(names[1:], feed.mixture.materials)
+            raise CaseError(_("The mixture has no solid that could crystallize."))
+        T = jnp.asarray(self.temperature, dtype=float)
+        dissolved = salts.all_dissolved(feed).at[0].add(-self.evaporation)
+        made = salts.brine.equilibrium(T, dissolved[0], salts.ions(dissolved), salts.which)
+        liquid = salts.left(dissolved, made.crystals)
+        sizes = LogNormal(self.crystal_size, self.geometric_standard_deviation)
+        solid = salts.crystallized(feed, made.crystals, sizes)
+        salts.brine.heard(T)
+        unsolved(made.found, type(self).card, reason=_NOT_FOUND)
+        product = feed.replace(solid=solid, liquid=liquid, gas=0.0 * feed.gas, temperature=T)
+        return Parted(salts, self._chosen(salts), made, product)
 
     def outlets(self, inside: Parted, feed: Stream) -> Crystallized:
-        liquid = feed.liquid.at[inside.places[0].solvent].set(inside.water)
-        solid = feed.solid
-        passing = LogNormal(self.crystal_size, self.geometric_standard_deviation)(
-            jnp.asarray(feed.mixture.edges)
-        )
-        shares = jnp.diff(passing.at[0].set(0.0).at[-1].set(1.0))
-        for place, made in zip(inside.places, inside.crystals, strict=True):
-            grown = feed.solid[place.solid]
-            fed = jnp.sum(grown, axis=tuple(range(1, grown.ndim)))
-            before = jnp.sum(fed)
-            kept = fed * jnp.minimum(safe_divide(made, before, 0.0), 1.0)
-            classes = kept + shares * jnp.maximum(made - before, 0.0)
-            solid = with_crystals(feed.replace(solid=solid), place, classes)
-            liquid = liquid.at[place.solute].add(before - made)
-        T = jnp.asarray(self.temperature, dtype=float)
-        product = feed.replace(solid=solid, liquid=liquid, gas=0.0 * feed.gas, temperature=T)
-        vapor = given_off(feed, inside.places[0], self.evaporation, T)
-        if inside.places[0].vapor is not None:
-            refuse_boiling(self.evaporation, product, feed, inside.places[0], type(self).card)
+        T, product = jnp.asarray(self.temperature, dtype=float), inside.product
+        place = roles(feed.mixture, feed.mixture.solids[inside.salts.forming[0].solid].name, SOLVENT)
+        vapor = given_off(feed, place, self.evaporation, T)
+        if place.vapor is not None:
+            refuse_boiling(self.evaporation, product, feed, place, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: Parted, outlets: Crystallized, feed: Stream) -> TwoSaltFigures:
-        T, made = self.temperature, inside.crystals
-        product = outlets.product
-        fractions = [product.liquid_fractions[p.solute] for p in inside.places]
-        ratios = inside.pair.saturation(T, *(jnp.maximum(m, 1e-12) for m in inside.molalities))
-        activity = inside.pair.water_activity(T, *inside.molalities)
-        water = feed.mixture.materials.fluid(WATER)
-        every = made[0] + made[1]
+        T, (salts, chosen, left, product) = self.temperature, inside
+        kinds = [salts.brine.crystals[k].salt for k in salts.which]
+        flows = list(left.crystals * jnp.asarray(salts.crystal_masses))
+        made = [
+            sum((f for f, k in zip(flows, kinds, strict=True) if k == salt), jnp.zeros(())) for salt in chosen
+        ]
+        every = jnp.sum(jnp.stack(flows))
+        ratios = salts.brine.saturation(T, left.molalities)
+        full = [
+            jnp.max(jnp.stack([ratios[i] for i, c in enumerate(salts.brine.crystals) if c.salt == salt]))
+            for salt in chosen
+        ]
+        fractions = [product.liquid_fractions[salts.liquids[salt]] for salt in chosen]
+        activity = salts.brine.water_activity(T, left.molalities)
+        water = feed.mixture.materials.fluid(SOLVENT)
         return TwoSaltFigures(
             made[0],
             made[1],
-            jnp.where(every > 0.0, safe_divide(jnp.maximum(*made), every, 1.0), 1.0),
+            jnp.where(every > 0.0, safe_divide(jnp.max(jnp.stack(flows)), every, 1.0), 1.0),
             fractions[0],
             fractions[1],
-            jnp.exp(ratios[0]),
-            jnp.exp(ratios[1]),
+            jnp.exp(full[0]),
+            jnp.exp(full[1]),
             activity,
             activity * water.vapor_pressure.value(jnp.asarray(T, dtype=float)),
             safe_divide(self.volume, product.slurry_volume_flow),
@@ -176,7 +186,12 @@ class TwoSaltCrystallizer(Unit):
     def measured(
         self, inside: Parted, outlets: Crystallized, figures: TwoSaltFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {"crowded": outlets.product.solids_volume_fraction, "time": figures.residence_time}
+        ratios = inside.salts.brine.saturation(self.temperature, inside.left.molalities)
+        return {
+            "crowded": outlets.product.solids_volume_fraction,
+            "saturated": jnp.exp(jnp.max(ratios)),
+            "time": figures.residence_time,
+        }
 
     def drawn(
         self, inside: Parted, outlets: Crystallized, figures: TwoSaltFigures, feed: Stream

@@ -1,4 +1,6 @@
-"""Two salts with a common ion: where both are saturated, and the isotherm between the salts alone."""
+"""Two salts with a common ion, or the four of a reciprocal pair: where they are saturated, which crystal
+forms first, and the isotherms.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +11,26 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import procedure
-from granum.core.kinds import MassFraction, Molality, Pressure, Series, Temperature, WaterActivity
-from granum.materials.common_ion import CommonIon, common_ion
+from granum.core.errors import ConvergenceError, InputError
+from granum.core.i18n import _
+from granum.core.kinds import (
+    Fraction,
+    MassFraction,
+    Molality,
+    Pressure,
+    Ratio,
+    Series,
+    Temperature,
+    WaterActivity,
+)
+from granum.materials.brines import SOLVENT, Brine, Equilibrium, brine
 from granum.materials.library import session
+from granum.numerics import find_root
 
-POINTS = 25
+POINTS = 41
 STAGES = 60  # points of a path at one temperature, or between two
+SURPLUS = 3.0  # times the solubility of each salt alone, so that all are there as crystals
+THINNEST, THICKEST = 1e-3, 30.0  # mol of charge per kg of water between which saturation is sought
 
 
 class InvariantPoint(NamedTuple):
@@ -30,12 +46,25 @@ class InvariantPoint(NamedTuple):
     pressure: Pressure
 
 
+class ReciprocalSaturation(NamedTuple):
+    """A solution of two cations and two anions where its first crystal forms."""
+
+    crystal: str
+    crystal_next: str
+    water_per_salt: Ratio
+    water_activity: WaterActivity
+    saturation_next: Ratio
+
+
 class Isotherm(NamedTuple):
-    """Saturated solutions from one salt alone over the invariant point to the other, as mass fractions."""
+    """Saturated solutions from one salt alone over the invariant point to the other, as mass fractions, the
+    place of that point, and of each the crystal by its place in the brine.
+    """
 
     first: Annotated[MassFraction, Series("points")]
     second: Annotated[MassFraction, Series("points")]
     corner: int
+    crystals: np.ndarray
 
 
 class Path(NamedTuple):
@@ -48,48 +77,155 @@ class Path(NamedTuple):
     boiled: int
 
 
-def fractions(pair: CommonIon, first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+class Diagram(NamedTuple):
+    """An isotherm of a reciprocal pair over the share of the second cation (columns) and of the second anion
+    (rows) by charge: the first crystal by its place in the brine, water per kg of salts, and the solutions
+    saturated with three.
+    """
+
+    shares: np.ndarray
+    crystal: np.ndarray
+    water: np.ndarray
+    invariant: np.ndarray
+
+
+def pair_of(first: str, second: str, materials: Any = None) -> Brine:
+    """The brine of two salts that share an ion."""
+    found = brine((first, second), materials)
+    if len(found.ions) != 3:
+        raise InputError(
+            _("{first} and {second} share no ion: their diagram is that of a reciprocal pair.").format(
+                first=first, second=second
+            )
+        )
+    return found
+
+
+def four_of(first: str, second: str, materials: Any = None) -> Brine:
+    """The brine of two salts without a common ion."""
+    found = brine((first, second), materials)
+    if len(found.ions) != 4:
+        raise InputError(
+            _("{first} and {second} share an ion: their diagram is the triangle of two salts.").format(
+                first=first, second=second
+            )
+        )
+    return found
+
+
+def fractions(pair: Brine, first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Mass fractions of both salts from their molalities."""
     a, b = (np.asarray(m) * M for m, M in zip((first, second), pair.molar_masses, strict=True))
     return a / (1.0 + a + b), b / (1.0 + a + b)
 
 
-def parted(pair: CommonIon, temperature: Any, first: Any, second: Any) -> tuple[Any, Any]:
-    """Molalities left in solution at equilibrium of what there is per kilogram of water, in solution and
-    crystals: both at the invariant point, one saturated beside the other, or all dissolved.
+def molalities(pair: Brine, ions: Any) -> tuple[Any, Any]:
+    """Of both salts from those of their ions: each has one of its own."""
+    table, m = pair.ions_per_salt, np.asarray(ions)
+    own = [int(np.argmax((table[k] > 0.0) & (table[1 - k] == 0.0))) for k in (0, 1)]
+    return m[..., own[0]] / table[0, own[0]], m[..., own[1]] / table[1, own[1]]
+
+
+@jax.jit
+def parted(salts: Brine, temperature: Any, ions: Any) -> Equilibrium:
+    """Equilibrium of ions (mol) and a kilogram of water with all crystals of the brine."""
+    return salts.equilibrium(temperature, jnp.ones(()), ions, tuple(range(len(salts.crystals))))
+
+
+@jax.jit
+def _saturated(salts: Brine, temperature: Any, directions: Any) -> tuple[Any, Any]:
+    """How many times ions there must be in a kilogram of water for the first crystal to form, and the
+    saturation of each then.
     """
-    both = pair.invariant(temperature)
-    left_first = pair.room(temperature, 0, jnp.minimum(second, both[1]))
-    left_second = pair.room(temperature, 1, jnp.minimum(first, both[0]))
-    full = (first >= both[0]) & (second >= both[1])
-    one = jnp.where(full, both[0], jnp.minimum(first, left_first))
-    other = jnp.where(full, both[1], jnp.minimum(second, left_second))
-    return one, other
+
+    def of(ions: Any, scale: Any) -> Any:
+        return salts.saturation(temperature, ions * scale)
+
+    def one(ions: Any) -> tuple[Any, Any]:
+        root = find_root(lambda t: jnp.max(of(ions, jnp.exp(t))), jnp.log(THINNEST), jnp.log(THICKEST))
+        return jnp.exp(root.value), of(ions, jnp.exp(root.value))
+
+    return jax.vmap(one)(directions)
 
 
-def isotherm(pair: CommonIon, temperature: float) -> Isotherm:
-    """The two saturation lines at a temperature."""
-    one, other = (float(m) for m in pair.invariant(temperature))
-    beside_second = np.linspace(0.0, other, POINTS)
-    beside_first = np.linspace(one, 0.0, POINTS)
-    first = np.asarray(jax.vmap(lambda m: pair.room(temperature, 0, m))(jnp.asarray(beside_second)))
-    second = np.asarray(jax.vmap(lambda m: pair.room(temperature, 1, m))(jnp.asarray(beside_first)))
-    x, y = fractions(pair, np.append(first, beside_first), np.append(beside_second, second))
-    return Isotherm(x, y, POINTS - 1)
+def with_all(salts: Brine, temperature: float, which: tuple[int, ...]) -> Equilibrium:
+    """The solution beside a surplus of some of the salts."""
+    amounts = np.zeros(len(salts.salts))
+    amounts[list(which)] = SURPLUS * np.asarray(salts.alone(jnp.asarray(temperature)))[list(which)]
+    found = parted(salts, temperature, jnp.asarray(amounts @ salts.ions_per_salt))
+    if not bool(found.found):
+        raise ConvergenceError(_("No solution was found that is saturated with all salts."))
+    return found
 
 
-def crystallization_path(pair: CommonIon, first: float, second: float, hot: float, cold: float) -> Path:
+def isotherm(pair: Brine, temperature: float) -> Isotherm:
+    """The saturation lines at a temperature."""
+    both = np.asarray(with_all(pair, temperature, (0, 1)).molalities)
+    one, other = molalities(pair, both)
+    between = other / (one + other)
+    shares = np.sort(np.append(np.linspace(0.0, 1.0, POINTS), between))
+    table = pair.ions_per_salt
+    directions = np.outer(1.0 - shares, table[0]) + np.outer(shares, table[1])
+    scale, ratios = _saturated(pair, temperature, jnp.asarray(directions))
+    t = np.asarray(scale)
+    x, y = fractions(pair, (1.0 - shares) * t, shares * t)
+    corner = int(np.searchsorted(shares, between))
+    return Isotherm(x, y, corner, np.argmax(np.asarray(ratios), axis=1))
+
+
+def crystallization_path(pair: Brine, first: float, second: float, hot: float, cold: float) -> Path:
     """The way of a liquor from its mass fractions on; the crystals are taken off before it is cooled."""
     water = 1.0 - first - second
-    fed = np.array([first, second]) / np.asarray(pair.molar_masses) / water
-    ends = np.asarray(pair.invariant(hot)) if fed.min() > 0.0 else np.asarray(pair.alone(hot))
+    fed = np.array([first, second]) / pair.molar_masses / water
+    if fed.min() > 0.0:
+        ends = np.array(molalities(pair, with_all(pair, hot, (0, 1)).molalities))
+    else:
+        ends = np.asarray(pair.alone(jnp.asarray(hot)))
     thicker = max(float(end / m) for end, m in zip(ends, fed, strict=True) if m > 0.0)
-    left = jax.vmap(lambda temperature, m: jnp.stack(parted(pair, temperature, m[0], m[1])))
+    left = jax.vmap(lambda T, ions: parted(pair, T, ions).molalities)
     scales = np.geomspace(1.0, max(thicker, 1.0), STAGES)
-    boiled = np.asarray(left(jnp.full(STAGES, hot), jnp.asarray(scales[:, None] * fed)))
-    cooled = np.asarray(left(jnp.linspace(hot, cold, STAGES), jnp.tile(boiled[-1], (STAGES, 1))))
-    x, y = fractions(pair, *np.append(boiled, cooled, axis=0).T)
+    boiled = left(jnp.full(STAGES, hot), jnp.asarray(scales[:, None] * (fed @ pair.ions_per_salt)))
+    cooled = left(jnp.linspace(hot, cold, STAGES), jnp.tile(boiled[-1], (STAGES, 1)))
+    x, y = fractions(pair, *molalities(pair, np.append(boiled, cooled, axis=0)))
     return Path(np.append(first, x), np.append(second, y), STAGES)
+
+
+def _directions(salts: Brine, cation: np.ndarray, anion: np.ndarray) -> np.ndarray:
+    """Ions of one mole of charge of each sign, from the shares of the second of each."""
+    (a, b), (c, d) = salts.charges
+    return np.stack([(1.0 - cation) / a, cation / b, (1.0 - anion) / c, anion / d], axis=-1)
+
+
+def ion_shares(salts: Brine, ions: Any) -> np.ndarray:
+    """Shares of the second cation and of the second anion by charge."""
+    charge = np.asarray(ions) * np.concatenate(salts.charges)
+    return np.stack([charge[..., 1] / charge[..., :2].sum(-1), charge[..., 3] / charge[..., 2:].sum(-1)], -1)
+
+
+def diagram(salts: Brine, temperature: float, points: int = POINTS) -> Diagram:
+    """The isotherm of a reciprocal pair."""
+    shares = np.linspace(0.0, 1.0, points)
+    directions = _directions(salts, *np.meshgrid(shares, shares)).reshape(-1, 4)
+    scale, ratios = _saturated(salts, temperature, jnp.asarray(directions))
+    masses = _ion_masses(salts)
+    water = 1.0 / (np.asarray(scale) * (directions @ masses))
+    corners = []
+    for absent in range(4):
+        three = tuple(k for k in range(4) if k != absent)
+        found = with_all(salts, temperature, three)
+        there = {salts.crystals[i].salt for i, n in enumerate(np.asarray(found.crystals)) if n > 0.0}
+        if len(there) == 3:
+            corners.append(ion_shares(salts, found.molalities))
+    first = np.argmax(np.asarray(ratios), axis=1)
+    square = (points, points)
+    unique = np.unique(np.round(np.array(corners).reshape(-1, 2), 6), axis=0)
+    return Diagram(shares, first.reshape(square), water.reshape(square), unique)
+
+
+def _ion_masses(salts: Brine) -> np.ndarray:
+    """kg/mol of each ion."""
+    masses = {p.cation: p.cation_mass for p in salts.parts} | {p.anion: p.anion_mass for p in salts.parts}
+    return np.array([1e-3 * masses[i] for i in salts.ions])
 
 
 @procedure(
@@ -104,18 +240,60 @@ def invariant_point(
     pressure of water over it.
 
     Each salt alone dissolves as in the library; what they do to each other follows from Pitzer's equations.
-    On evaporation every solution of the two ends here. Sodium and potassium chloride.
+    On evaporation every solution of the two ends here. Sodium and potassium chloride; chloride and sulfate of
+    either; at room temperature nitrate and chloride of either, sodium and potassium nitrate.
 
     >>> out = invariant_point(temperature="25 degC")
     >>> round(100 * out.solute_mass_fraction_first, 1)
     20.8
     """
-    pair = common_ion(first_salt, second_salt)
-    one, other = (float(m) for m in pair.invariant(temperature))
+    pair = pair_of(first_salt, second_salt)
+    T = jnp.asarray(temperature, dtype=float)
+    pair.heard(T)
+    found = with_all(pair, float(temperature), (0, 1))
+    one, other = (float(m) for m in molalities(pair, found.molalities))
     x, y = fractions(pair, np.asarray(one), np.asarray(other))
-    alone = pair.alone(temperature)
-    activity = float(pair.water_activity(temperature, one, other))
-    water = session().fluid("water").vapor_pressure.value(jnp.asarray(temperature, dtype=float))
+    alone = pair.alone(T)
+    activity = float(pair.water_activity(T, found.molalities))
+    water = session().fluid(SOLVENT).vapor_pressure.value(T)
     return InvariantPoint(
         one, other, float(x), float(y), float(alone[0]), float(alone[1]), activity, activity * float(water)
+    )
+
+
+@procedure(
+    source="pitzer1974mixed; greenberg1989; mullin2001, ch. 4",
+    title="First crystal of a reciprocal pair of salts",
+    typical={"temperature": (288.15, 308.15), "cation_share": (0.0, 1.0), "anion_share": (0.0, 1.0)},
+)
+def reciprocal_saturation(
+    temperature: Temperature,
+    cation_share: Fraction,
+    anion_share: Fraction,
+    first_salt: str = "sodium nitrate",
+    second_salt: str = "potassium chloride",
+) -> ReciprocalSaturation:
+    """Which crystal forms first when a solution of two cations and two anions loses water, how much water is
+    left then per kilogram of salts, and which crystal is next.
+
+    The shares are by charge: of the cation of the second salt among the cations, of its anion among the
+    anions (Jänecke's coordinates). Sodium and potassium with nitrate and chloride, at room temperature.
+
+    >>> reciprocal_saturation(temperature="25 degC", cation_share=0.5, anion_share=0.5).crystal
+    'potassium nitrate'
+    """
+    salts = four_of(first_salt, second_salt)
+    T = jnp.asarray(temperature, dtype=float)
+    salts.heard(T)
+    ions = _directions(salts, np.asarray(float(cation_share)), np.asarray(float(anion_share)))
+    scale, ratios = _saturated(salts, float(temperature), jnp.asarray(ions)[None])
+    order = np.argsort(-np.asarray(ratios[0]))
+    first, following = (salts.crystals[k] for k in order[:2])
+    activity = salts.water_activity(T, scale[0] * jnp.asarray(ions))
+    return ReciprocalSaturation(
+        first.name,
+        following.name,
+        float(1.0 / (scale[0] * (ions @ _ion_masses(salts)))),
+        float(activity),
+        float(np.exp(ratios[0][order[1]])),
     )

@@ -12,7 +12,9 @@ from granum.core.kinds import (
     Density,
     DynamicViscosity,
     HeatCapacity,
+    Kind,
     MassFraction,
+    MolarConcentration,
     Number,
     Series,
     Temperature,
@@ -21,6 +23,10 @@ from granum.materials.formulas.water import water_density, water_heat_capacity
 from granum.materials.formulas.water_transport import water_viscosity
 
 Coefficients = Annotated[Number, Series("coefficients")]
+ViscosityCoefficient = Annotated[
+    Any, Kind("viscosity coefficient of a solute", "m^3/mol", display=("L/mol", "m^3/mol"))
+]
+DILUTE = 1000.0  # mol/m³
 
 
 def _solute(mass_fraction: Any) -> Any:
@@ -97,6 +103,34 @@ def dynamic_viscosity_laliberte(
         (v[0] * w ** v[1] + v[2]) / (v[3] * t + 1.0) - jnp.log(v[4] * w ** v[5] + 1.0) + jnp.log(1e-3)
     )
     return jnp.exp((1.0 - w) * jnp.log(water_viscosity(temperature)) + w * log_solute)
+
+
+@formula(
+    source="jones1929; einstein1906",
+    equation=r"\eta = \eta_0\,e^{B c}",
+    output="dynamic_viscosity",
+    title="Viscosity of a dilute solution (Jones–Dole)",
+    fitted={"solute_molar_concentration": (0.0, DILUTE)},
+)
+def dynamic_viscosity_jones_dole(
+    solvent_viscosity: DynamicViscosity,
+    solute_molar_concentration: MolarConcentration,
+    jones_dole_coefficient: ViscosityCoefficient,
+) -> DynamicViscosity:
+    """Viscosity of a solution from Jones and Dole's coefficient, the sum of those of its ions.
+
+    The exponential begins as the law 1 + Bc and never turns negative. Ions that order water thicken it
+    (sodium, sulfate), large ones of one charge thin it (potassium, iodide). A solute of which no B is known
+    is taken for spheres in Einstein's sense, B = 2.5 V with its molar volume: an estimate, half of what
+    sugars and organic acids do. Beyond 1 mol/L solutions thicken faster than this. The term in √c, below 2
+    % there, is left out.
+
+    Sodium chloride of 1 mol/L at 25 °C, 0.0793 L/mol: 0.97 mPa s is measured.
+
+    >>> round(1e3 * dynamic_viscosity_jones_dole("0.890 mPa s", "1 mol/L", "0.0793 L/mol"), 2)
+    0.96
+    """
+    return solvent_viscosity * jnp.exp(jones_dole_coefficient * solute_molar_concentration)
 
 
 @formula(
