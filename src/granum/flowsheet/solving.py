@@ -118,6 +118,8 @@ def _run_loop(
 
     def torn(vector: Any) -> dict[str, Stream]:
         rows = vector[: loop.count * loop.row].reshape(loop.count, loop.row)
+        # steps that look ahead may pass zero; units are not made for less than nothing
+        rows = jnp.where(rows < 0.0, 0.0, rows)
         return {n: unpack(rows[i], guess[n].mixture, scale) for i, n in enumerate(block.tears)}
 
     def once(vector: Any) -> tuple[Any, Any]:
