@@ -1,10 +1,11 @@
 """What every piece of equipment keeps, at one ordinary setting of the smallest case that holds it.
 
 Balances of each component and of energy close; nothing comes out where nothing goes in; the derivative with
-respect to a parameter is finite and that of central differences; a unit says the same called alone and in a
-line; limits have a source. Random settings of the same cases, and species in another order, are in
-``test_unit_fuzz`` and ``test_separator_fuzz``; dryers and units for humid gas are in ``test_dryer_settings``.
-Those under ``LONG`` are tried in the long run only (``GRANUM_RANDOM_SAMPLES``).
+respect to a parameter is finite and that of central differences; what it takes is possible, and no less for
+twice the flow where a stream is moved; a unit says the same called alone and in a line; limits have a
+source. Random settings of the same cases, and species in another order, are in ``test_unit_fuzz`` and
+``test_separator_fuzz``; dryers and units for humid gas are in ``test_dryer_settings``. Those under ``LONG``
+are tried in the long run only (``GRANUM_RANDOM_SAMPLES``).
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from tests.contracts import (
     unit_cases,
     vessel_cases,
 )
+from tests.contracts.taking import judge, judge_twice
 from tests.contracts.unit_search import FEED, OWN, QUICK, THERE, Case, present, rows
 from tests.sharing.samples import SAMPLES
 
@@ -103,7 +105,7 @@ def setting() -> np.ndarray:
 
 class Outcome(NamedTuple):
     """What came of one row: closures of the unit, whether it says that it has no solution, its outlets by
-    name, all its figures.
+    name, all its figures, what it takes, and the powers of its balance.
     """
 
     mass: Any
@@ -112,6 +114,8 @@ class Outcome(NamedTuple):
     lost: Any
     flows: Any
     numbers: Any
+    uses: Any
+    powers: Any
 
 
 def outcome(case: Case, row: Any, there: Any) -> Outcome:
@@ -127,9 +131,9 @@ def outcome(case: Case, row: Any, there: Any) -> Outcome:
         for v in jax.tree.leaves((products, solution.powers, solution.sheets["unit"][0]))
     ]
     flows = jnp.stack([s.mass_flow for s in products])
-    return Outcome(
-        found.mass[0], found.energy[0], jnp.min(found.lowest), found.lost[0], flows, jnp.concatenate(numbers)
-    )
+    closed = found.mass[0], found.energy[0], jnp.min(found.lowest), found.lost[0]
+    uses = solution.sheets["unit"].uses
+    return Outcome(*closed, flows, jnp.concatenate(numbers), uses, solution.powers["unit"])
 
 
 def test_every_card_has_a_case_or_is_humid() -> None:
@@ -163,12 +167,12 @@ def test_a_unit_says_the_same_alone_and_in_a_line(key: str) -> None:
 
 
 @pytest.mark.parametrize("key", [key for key in CASED if SAMPLES or key not in LONG])
-def test_conserves_keeps_still_and_has_derivatives(key: str) -> None:
+def test_conserves_keeps_still_has_derivatives_and_takes_what_it_may(key: str) -> None:
     case, middle = cases()[key], setting()
     along = np.zeros(FEED + OWN)
     along[FEED] = 1.0  # the first number of the unit
-    settings = np.stack([middle, middle - STEP * along, middle + STEP * along, middle])
-    there = np.array([[1.0] * THERE] * 3 + [[0.0] * THERE])
+    settings = np.stack([middle, middle - STEP * along, middle + STEP * along, middle, middle])
+    there = np.repeat([1.0, 1.0, 1.0, 0.0, 2.0], THERE).reshape(-1, THERE)
 
     def tried(row: Any, parts: Any) -> tuple[Outcome, Any]:
         found, slopes = jax.jvp(lambda r: outcome(case, r, parts), (row,), (jnp.asarray(along),))
@@ -187,3 +191,6 @@ def test_conserves_keeps_still_and_has_derivatives(key: str) -> None:
     rounding = 1e-6 * found.flows[0].max()  # of what is the rest of two flows
     apart = np.abs(measured - slopes[0]) / (np.abs(found.numbers[0]) + np.abs(slopes[0]) + rounding)
     assert apart.max() <= 1e-4
+    once, twice = ({name: x[k] for name, x in found.uses.items()} for k in (0, 4))
+    judge(once, {name: x[0] for name, x in found.powers.items()})
+    judge_twice(once, twice)
