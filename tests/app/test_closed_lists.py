@@ -64,7 +64,11 @@ def test_names_of_the_library_are_chosen() -> None:
 
 def test_salts_of_a_pair_sieves_and_what_a_wash_dissolves_come_from_lists() -> None:
     pair = alone_form("crystallization.two_salt_crystallizer", {})["parameters"]
-    salts = {"sodium chloride", "potassium chloride"}
+    salts = {
+        f"{cation} {anion}"
+        for cation in ("sodium", "potassium")
+        for anion in ("chloride", "sulfate", "nitrate")
+    }
     for p in (q for q in pair if q["name"].endswith("_salt")):
         assert {o["value"] for o in p["options"]} == salts
     drum = alone_form("filtration.rotary_vacuum_drum", {})["parameters"]

@@ -329,10 +329,10 @@ def test_a_worker_at_rest_gives_back_what_it_does_not_need(monkeypatch: pytest.M
 
     monkeypatch.setattr(worker, "REST", 0.01)
     monkeypatch.setattr(worker, "give_back", give_back)
-    assert worker._next(waiting) == "the next"
+    assert worker._next(waiting, lambda: given.append("warm")) == "the next"
     waiting.put("at once")
-    assert worker._next(waiting) == "at once"
-    assert given == ["memory"]
+    assert worker._next(waiting, lambda: given.append("again")) == "at once"
+    assert given == ["warm", "memory"]
 
 
 def test_compiled_code_is_forgotten_when_there_is_much_of_it(monkeypatch: pytest.MonkeyPatch) -> None:

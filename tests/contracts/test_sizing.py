@@ -118,7 +118,11 @@ def test_what_is_counted_is_told_as_a_whole_number() -> None:
     told = doubts(gr.size("settling.lamella", overflow_rate="1 m/hour", feed={"liquid_flow": "150 t/h"}))
     assert "A whole number is built: number of plates = 119 or 120" in told
     counted = {row["setting"] for row in _declared().values() if row.get("whole")}
-    assert counted == {row["setting"] for row in _declared().values() if "_number" in row.get("setting", "")}
+    assert counted == {
+        row["setting"]
+        for row in _declared().values()
+        if row.get("setting", "").endswith(("_number", "_count"))
+    }
 
 
 def test_the_end_of_what_may_be_set_is_looked_at() -> None:

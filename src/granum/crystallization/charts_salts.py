@@ -28,6 +28,7 @@ from granum.crystallization.vessels.common_ion import (
 )
 from granum.materials.activities import SLACK
 from granum.materials.brines import Brine
+from granum.materials.library import session
 
 TIES = 4  # tie lines of each branch
 DRIED, DRYING = 120.0, 30  # mol of charge per kg of water at the end of a path, and its points
@@ -78,7 +79,7 @@ def two_salts_chart(
     pair = pair_of(first_salt, second_salt)
     for T in temperatures:
         _within(pair, T, "isotherm_temperatures")
-    names = [system.label for system in pair.salts]
+    names = [session().label(system.name) for system in pair.salts]
     drawing = go.Figure()
     for T, color in zip(temperatures, LINES * 10, strict=False):
         found = isotherm(pair, float(T))
@@ -171,15 +172,15 @@ def reciprocal_chart(
     shares = 100.0 * found.shares
     there = [k for k in range(len(salts.crystals)) if np.any(found.crystal == k)]
     for k, color in zip(there, LINES * 10, strict=False):
-        rows, columns = np.nonzero(found.crystal == k)
-        mark = {"color": color, "size": 9, "symbol": "square", "opacity": 0.35}
-        drawing.add_scatter(
-            x=shares[columns],
-            y=shares[rows],
-            mode="markers",
-            marker=mark,
+        drawing.add_heatmap(
+            x=shares,
+            y=shares,
+            z=np.where(found.crystal == k, 1.0, np.nan),
+            colorscale=[[0.0, color], [1.0, color]],
+            opacity=0.35,
             name=salts.crystals[k].branch.crystal.label,
             showlegend=True,
+            showscale=False,
             hoverinfo="skip",
         )
     drawing.add_contour(

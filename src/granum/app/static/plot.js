@@ -156,7 +156,9 @@ function fitted({ layout, data }, width) {
   const lines = along?.title?.text?.split('<br>').length ?? 1;
   const own = layout.legend && ['x', 'y', 'orientation'].some((part) => layout.legend[part] !== undefined);
   const above = !narrow && !own && count > 1 && count <= 6 && layout.showlegend !== false;
-  if (above) margin.t = 34;
+  const corner = layout.ternary ? 44 : 0; // room for the names at the corners of a triangle
+  if (above || corner) margin.t = corner + (above ? 34 : 0);
+  if (corner) margin.l = margin.r = narrow ? 60 : 100;
   const legend = narrow
     ? {
         ...layout.legend,
@@ -168,7 +170,7 @@ function fitted({ layout, data }, width) {
         font: { size: 11 },
       }
     : above
-      ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: 1.01, yanchor: 'bottom' } // over the plot, on nothing
+      ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: 1.01 + corner / height, yanchor: 'bottom' } // over the plot, on nothing
       : layout.legend;
   const axes = narrow
     ? {
@@ -220,6 +222,7 @@ export const decoded = (values) =>
 /** The numbers of a chart: a row for each point, with the curve it lies on. */
 function numbers({ data, layout }) {
   if (data[0]?.type === 'sankey') return widths(data[0]);
+  if (layout.ternary) return shares(data, layout.ternary);
   const x = axisText(layout.xaxis, 'x');
   const y = axisText(layout.yaxis, 'y');
   const flat = (values) => Array.isArray(values) && values.every((v) => !Array.isArray(v));
@@ -227,11 +230,28 @@ function numbers({ data, layout }) {
     .filter(
       (trace) => trace.hoverinfo !== 'skip' && trace.visible !== 'legendonly' && trace.visible !== false,
     )
-    .map((trace) => ({ name: trace.name ?? '', x: decoded(trace.x), y: decoded(trace.y) }))
+    .map(({ name = '', x, y, z }) => ({ name, x: decoded(x), y: decoded(y), z: decoded(z)?.flat() }))
     .filter((trace) => flat(trace.x) && flat(trace.y))
-    .flatMap((trace) => trace.x.map((at, i) => [trace.name, at, trace.y[i]]))
+    .flatMap(({ name, x, y, z }) =>
+      z
+        ? z.map((level, i) => [`${name} = ${shown(level)}`, x[i % x.length], y[Math.floor(i / x.length)]])
+        : x.map((at, i) => [name, at, y[i]]),
+    )
     .filter(([, at, value]) => at !== null && value !== null && value !== undefined);
   return { heads: [t('Curve'), x, y], rows };
+}
+
+/** The numbers of a triangle: the shares of all three at each point. */
+function shares(data, axes) {
+  const parts = ['a', 'b', 'c'];
+  const rows = data
+    .filter((trace) => trace.hoverinfo !== 'skip')
+    .flatMap((trace) => {
+      const [a, ...others] = parts.map((part) => decoded(trace[part]));
+      return a.map((share, i) => [trace.name ?? '', share, ...others.map((values) => values[i])]);
+    });
+  const told = ([, ...values]) => values.every((value) => value !== null && value !== undefined);
+  return { heads: [t('Curve'), ...parts.map((part) => `${axes[`${part}axis`]?.title?.text ?? part} / %`)], rows: rows.filter(told) };
 }
 
 /** The numbers of a Sankey diagram: what flows from where to where. */

@@ -30,7 +30,9 @@ from granum.numerics import find_root
 POINTS = 41
 STAGES = 60  # points of a path at one temperature, or between two
 SURPLUS = 3.0  # times the solubility of each salt alone, so that all are there as crystals
-THINNEST, THICKEST = 1e-3, 30.0  # mol of charge per kg of water between which saturation is sought
+# saturation is sought from so much, in mol of charge per kg of water, to so many times the solubility of the
+# salt alone that comes to its own first; far beyond, the equations turn back
+THINNEST, THICKER = 1e-3, 1.6
 
 
 class InvariantPoint(NamedTuple):
@@ -141,8 +143,12 @@ def _saturated(salts: Brine, temperature: Any, directions: Any) -> tuple[Any, An
     def of(ions: Any, scale: Any) -> Any:
         return salts.saturation(temperature, ions * scale)
 
+    counts, alone = jnp.asarray(salts.ions_per_salt), salts.alone(temperature)
+
     def one(ions: Any) -> tuple[Any, Any]:
-        root = find_root(lambda t: jnp.max(of(ions, jnp.exp(t))), jnp.log(THINNEST), jnp.log(THICKEST))
+        there = jnp.min(jnp.where(counts > 0.0, ions / jnp.where(counts > 0.0, counts, 1.0), jnp.inf), axis=1)
+        most = jnp.min(jnp.where(there > 0.0, THICKER * alone / jnp.where(there > 0.0, there, 1.0), jnp.inf))
+        root = find_root(lambda t: jnp.max(of(ions, jnp.exp(t))), jnp.log(THINNEST), jnp.log(most))
         return jnp.exp(root.value), of(ions, jnp.exp(root.value))
 
     return jax.vmap(one)(directions)
