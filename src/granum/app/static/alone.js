@@ -147,7 +147,7 @@ const useInside = (text, old) =>
   );
 
 function Inside({ card, inside: { data, error, pending, cancel, job } }) {
-  const seen = useRef(null); // the charts before stay, in grey, until others come
+  const seen = useRef(null); // the charts before stay, in gray, until others come
   if (data) seen.current = data;
   if (error) return html`<p class="small dim">${error.message}</p>`;
   if (!seen.current) return html`<${Working} busy=${pending} cancel=${cancel} job=${job} />`;
