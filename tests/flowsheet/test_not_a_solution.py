@@ -154,7 +154,7 @@ def test_fog_is_no_gas(tmp_path: Path) -> None:
     """
     problem = refusal(air(tmp_path))
     assert "mix" in problem.message
-    assert "humid_mixer" in problem.message
+    assert "a mixer of humid gases" in problem.message
     run = air(tmp_path, model="streams.humid_mixer").solve()
     assert float(run.streams["mix.product"].liquid_flow) > 0
 
@@ -298,7 +298,7 @@ def test_command_line_gives_no_figures_unless_asked(tmp_path: Path) -> None:
     path = str(tmp_path / "line.toml")
     code, out, err = granum("run", path)
     assert (code, out) == (3, "")
-    assert "humid_mixer" in err
+    assert "a mixer of humid gases" in err
     code, out, _err = granum("run", path, "--json")
     assert code == 3
     assert set(json.loads(out)) == {"error"}

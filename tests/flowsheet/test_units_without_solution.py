@@ -15,6 +15,7 @@ from granum.core.errors import ApplicabilityError, ConvergenceError
 from granum.crystallization.equipment import msmpr
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.run import Line
+from granum.materials.solutes import SoluteSystem
 from granum.streams.equipment import agglomerator
 from granum.streams.equipment.agglomerator import settle
 from granum.streams.equipment.basics import Heater, Mixer, Single
@@ -234,8 +235,15 @@ def test_a_crystallizer_beyond_the_data_of_its_solubility_says_so(tmp_path: Path
     assert not [row for row in line.with_values(**inside).solve().flags if "paracetamol" in row["card"]]
 
 
-def test_a_stirrer_in_a_solution_of_unknown_viscosity_is_not_told(tmp_path: Path) -> None:
+def test_a_stirrer_in_a_solution_of_unknown_viscosity_is_not_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """What only a utility asks for makes no line fail: the stirrer is left out, the cold is told."""
+
+    def unknown(*_given: object) -> object:
+        raise ApplicabilityError("The solvent has no viscosity.")  # all of the library have one
+
+    monkeypatch.setattr(SoluteSystem, "solution_viscosity", unknown)
     line = vessel(tmp_path / "line.toml", "continuous", "20 degC")
     run = line.solve()
     assert "electric_power_agitator" not in run.units["vessel"].uses

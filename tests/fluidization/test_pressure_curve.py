@@ -47,7 +47,7 @@ def test_bad_data_are_refused() -> None:
     with pytest.raises(InputError, match="fixed bed"):
         PressureCurve(U[14:], dp[14:], **BED).fit()
     with pytest.raises(ApplicabilityError, match="denser"):
-        PressureCurve(U, dp, **{**BED, "particle_density": 1.0}).fit()
+        PressureCurve(U, dp, **{**BED, "particle_density": "1 kg/m3"}).fit()
     with pytest.raises(InputError, match="void_fraction"):
         curve.pressure_velocity(0.5, 2e-4, 2600.0, 1.2, 1.8e-5, 0.38, 0.40)
 

@@ -45,7 +45,7 @@ def electrostatic_mixing_function(electrostatic_mixing_argument: PositiveNumber)
     integral.
 
     >>> round(electrostatic_mixing_function(electrostatic_mixing_argument=1.0), 4)
-    0.1168
+    0.1173
     """
     x = electrostatic_mixing_argument
     return x / (4.0 + 4.581 * x**-0.7237 * jnp.exp(-0.0120 * x**0.528))
