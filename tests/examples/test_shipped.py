@@ -22,7 +22,8 @@ SLOW = {"seeded-crystallizer/seeded_batch.py", "polymorph/polymorph.py", "humid-
 @pytest.mark.parametrize(
     "name", [pytest.param(n, marks=pytest.mark.long if n in SLOW else ()) for n in PROGRAMS]
 )
-def test_a_program_runs(name: str) -> None:
+def test_a_program_runs(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.argv", [name])
     runpy.run_path(str(EXAMPLES / name), run_name="__main__")
 
 
