@@ -127,7 +127,13 @@ def _word(value: Any, parameter: Parameter) -> str:
     if hasattr(value, "card"):
         return law_text(value)
     text = str(default_as_json(value))
-    return _(text.replace("_", " ")) if value in parameter.choices else text
+    if value in parameter.choices:
+        return _(text.replace("_", " "))
+    if current_language() == "en" or not isinstance(value, str):
+        return text
+    from granum.materials.library import session  # takes a while to read
+
+    return session().label(text)
 
 
 def law_label(card: Card) -> str:
