@@ -77,7 +77,7 @@ class Program:
         self.size, self.work, self._body = maker.made(trace)
         self._takes = [shaped.dtype for shaped in trace.given]
         self._loops, self._numpy_does_all = maker.loops, maker.lasts
-        # what is only run needs its steps: the trace, with JAX's own form of it, takes five times as much
+        # what is only run needs its steps, not the trace with JAX's own form of it
         self.trace = trace if kept else None
 
     @property
