@@ -117,3 +117,5 @@ def test_mineral_oil_of_a_grade():
     assert 1e6 * nu[2] == pytest.approx(46.0, rel=1e-6)
     with pytest.raises(ApplicabilityError, match="above the lower"):
         kinematic_viscosity_walther("20 degC", "40 degC", "46 cSt", "40 degC", "6.8 cSt")
+    with pytest.raises(ApplicabilityError, match="thinner at the upper"):
+        kinematic_viscosity_walther("20 degC", "40 degC", "6.8 cSt", "100 degC", "46 cSt")

@@ -126,9 +126,27 @@ def test_a_brine_boils_hotter_than_water_and_an_oil_does_not_boil():
     [
         ("brine at 20 °C", "share of the solution"),
         ("100 % sucrose at 20 °C", "below 100 %"),
+        ("-5 % sucrose at 20 °C", "not possible of the 'fluid'"),
         ("10 % quartzy at 20 °C", "not known"),
     ],
 )
 def test_what_is_no_solution_is_told(words, message):
     with pytest.raises(InputError, match=message):
         StatedFluid.read(words)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("10 % sodium chloride at 20 °C", ""),
+        ("water at 20 °C", ""),
+        ("air at 20 °C", ""),
+        ("30 % sodium chloride at 20 °C", "crystals would form"),
+        ("20 % calcium chloride at -60 °C", "temperature"),
+        ("olive oil at 500 °C", "temperature"),
+    ],
+)
+def test_a_fluid_outside_its_data_is_told(words, told):
+    found = gr.particles.terminal_velocity.evaluate("50 um", 2630.0, fluid=words)
+    assert bool(found.flags.any()) == bool(told)
+    assert any(told in notice["message"] for notice in found.notices) == bool(told)

@@ -170,7 +170,8 @@ def _evaluate(cls: Any, /, **inputs: Any) -> Result:
     """
     card = replace(cls.card, parameters=tuple(cls.card.inputs.values()), arguments=())
     binder = Binder.of(card.key, card.parameters)
-    given, origins = binder.resolved((), inputs)
+    with flags.collect() as of_inputs:
+        given, origins = binder.resolved((), inputs)
     where = _(" for {owner}").format(owner=card.key)
     rows = zip(card.parameters, binder.arrange((), given), strict=True)
     values = {p.name: convert(value, p, where, several=p in cls.card.arguments) for p, value in rows}
@@ -179,7 +180,8 @@ def _evaluate(cls: Any, /, **inputs: Any) -> Result:
     arrays = [np.shape(x) for x in jax.tree.leaves(out)]
     shape = arrays[0] if isinstance(out, tuple) else np.broadcast_shapes(*arrays)
     told = {"flags": flags.bits(records, shape), "notices": describe(records)}
-    return Result(card, values, out, **told, defaults=binder.left_out((), given), origins=origins)
+    result = Result(card, values, out, **told, defaults=binder.left_out((), given), origins=origins)
+    return result.told(of_inputs)
 
 
 def law(

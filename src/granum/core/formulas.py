@@ -427,7 +427,8 @@ class Formula(Generic[P, R]):
 
     def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its flags and card."""
-        kwargs, origins = self._binder.resolved(args, kwargs)  # type: ignore[assignment]
+        with flags.collect() as of_inputs:
+            kwargs, origins = self._binder.resolved(args, kwargs)  # type: ignore[assignment]
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
             raise InputError(
@@ -437,7 +438,7 @@ class Formula(Generic[P, R]):
             )
         result = replace(
             self._evaluate(values), defaults=self._binder.left_out(args, kwargs), origins=origins
-        )
+        ).told(of_inputs)
         return result if batched else result.possible()
 
     def _evaluate(self, values: list[Any]) -> Result:

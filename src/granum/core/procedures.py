@@ -10,7 +10,7 @@ from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints, overload
 
 import numpy as np
 
-from granum.core import bounds, notebooks
+from granum.core import bounds, flags, notebooks
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder
 from granum.core.docstrings import CompletedDoc
@@ -80,13 +80,14 @@ class Procedure(Generic[P, R]):
         return out
 
     def evaluate(self, *args: Any, **kwargs: Any) -> Result:
-        """The value with its card (a procedure reports problems by raising, so there are no flags)."""
-        given, origins = self._binder.resolved(args, kwargs)
-        inputs = self._binder.bind(args, given)
+        """The value with its card, and what was flagged on the way to it."""
+        with flags.collect() as records:
+            given, origins = self._binder.resolved(args, kwargs)
+            inputs = self._binder.bind(args, given)
+            out = self._run(inputs)
         left = self._binder.left_out(args, given)
-        return Result(
-            self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left, origins=origins
-        )
+        none = np.zeros((), np.int32)
+        return Result(self.card, inputs, out, none, defaults=left, origins=origins).told(records)
 
 
 Procedure.__doc__ = CompletedDoc(Procedure.__doc__, of_instances=True)  # type: ignore[assignment]

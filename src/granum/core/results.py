@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,9 +11,10 @@ import numpy as np
 from granum.core import notebooks
 from granum.core.cards import Card
 from granum.core.errors import ApplicabilityError
-from granum.core.flags import OUTSIDE_DOMAIN, WORDS
+from granum.core.flags import OUTSIDE_DOMAIN, WORDS, Record, bits
 from granum.core.given import shown
 from granum.core.i18n import _
+from granum.core.notices import describe
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import format_number, from_si, pretty_unit, show
 
@@ -81,6 +82,11 @@ class Result:
         if len(self.card.outputs) == 1 and not hasattr(self.value, "_fields"):
             return {self.card.outputs[0].name: self.value}
         return dict(zip((p.name for p in self.card.outputs), self.value, strict=True))
+
+    def told(self, records: list[Record]) -> Result:
+        """The same result with what was flagged of its inputs, such as a fluid outside its data."""
+        raised = self.flags | bits(records, np.shape(self.flags))
+        return replace(self, flags=raised, notices=[*describe(records), *self.notices])
 
     @property
     def ranking(self) -> tuple[list[Parameter], list[tuple[Any, ...]]] | None:

@@ -268,6 +268,7 @@ def _boil_together(liquor: Liquor, salts: Salts, feed: Stream, chest: Any, pure:
 
     boiling = Boiling(gone, excess, DRIEST)
     made = salts.brine.equilibrium(pure - 1e-3, dissolved[0], salts.ions(dissolved), salts.which, boiling)
+    salts.brine.heard(made.temperature, made.molalities)
     left = salts.left(dissolved, made.crystals)
     split = _Split(made.evaporated, list(made.crystals), left.at[0].add(-made.evaporated), left[0])
     return made.temperature, split, made.found
@@ -297,7 +298,6 @@ def boil(liquor: Liquor, feed: Stream, chest: Any, pure: Any, conductance: Any, 
         crystals = jnp.stack(made.crystals) if made.crystals else jnp.zeros(0)
         solid = liquor.salts.crystallized(feed, crystals, sizes)
         grown = jnp.sum(jnp.maximum(jnp.sum(solid - feed.solid, axis=tuple(range(1, solid.ndim))), 0.0))
-        liquor.salts.brine.heard(T)
     else:
         T, made, found = _boil_alone(liquor, feed, chest, pure, conductance)
         solid, grown = _grown(liquor, feed, made, sizes)

@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from granum.core import chart, procedure
+from granum.core import chart, flags, procedure
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -89,9 +89,10 @@ def pressure_velocity(
     )
 
     def fixed(e: float) -> Any:
-        gradient = pressure_gradient_ergun(
-            U, particle_diameter, e, fluid_density, dynamic_viscosity, sphericity
-        )
+        with flags.collect():  # its range ends where the first term is Kozeny and Carman's law
+            gradient = pressure_gradient_ergun(
+                U, particle_diameter, e, fluid_density, dynamic_viscosity, sphericity
+            )
         return np.asarray(gradient) * solid / (1.0 - e)
 
     dense = fixed(void_fraction_settled)

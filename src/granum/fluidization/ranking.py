@@ -9,7 +9,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from granum.core import procedure
+from granum.core import flags, procedure
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
@@ -96,10 +96,9 @@ def minimum_fluidization_spread(
         if not name.startswith("minimum_fluidization_velocity_"):
             continue
         asked = {p.name for p in law.card.parameters}
-        result = law.evaluate(
-            **fluid,
-            **{k: v for k, v in (("void_fraction", void_fraction), ("sphericity", sphericity)) if k in asked},
-        )
+        own = {"void_fraction": void_fraction, "sphericity": sphericity}
+        with flags.collect():  # told as the remark of its row
+            result = law.evaluate(**fluid, **{k: v for k, v in own.items() if k in asked})
         remark = "; ".join(notice["message"] for notice in result.notices)
         suits = not remark and (
             name.endswith("riba") == (fluid_density > GEL_LIQUID) or "ergun" in name or "wen_yu" in name
@@ -123,6 +122,7 @@ class Spread(NamedTuple):
 
     correlation: Annotated[str, Series("correlations")]
     disengaging_height: Annotated[Length, Series("correlations")]
+    in_range: Annotated[Fraction, Series("correlations")]
     median_height: Length
 
 
@@ -143,9 +143,10 @@ def disengaging_height_spread(
     }
     rows = _every(freeboard, "disengaging_height_", known)
     return Spread(
-        _words(name for _v, name in rows),
-        np.array([v for v, _n in rows]),
-        float(np.median([v for v, _n in rows])),
+        _words(row[1] for row in rows),
+        np.array([row[0] for row in rows]),
+        np.array([row[2] for row in rows]),
+        float(np.median([row[0] for row in rows])),
     )
 
 
@@ -154,6 +155,7 @@ class ElutriationSpread(NamedTuple):
 
     correlation: Annotated[str, Series("correlations")]
     elutriation_flux: Annotated[MassFlux, Series("correlations")]
+    in_range: Annotated[Fraction, Series("correlations")]
     median_flux: MassFlux
 
 
@@ -180,22 +182,25 @@ def elutriation_spread(
     denser(particle_density, fluid_density)
     rows = _every(freeboard, "elutriation_flux_", locals())
     return ElutriationSpread(
-        _words(name for _v, name in rows),
-        np.array([v for v, _n in rows]),
-        float(np.median([v for v, _n in rows])),
+        _words(row[1] for row in rows),
+        np.array([row[0] for row in rows]),
+        np.array([row[2] for row in rows]),
+        float(np.median([row[0] for row in rows])),
     )
 
 
-def _every(module: Any, start: str, known: dict[str, Any]) -> list[tuple[float, str]]:
-    """Value and author of every law of a module whose name starts so, lowest first."""
-    laws = [(name, law) for name, law in vars(module).items() if name.startswith(start)]
-    return sorted(
-        (
-            float(law(**{p.name: known[p.name] for p in law.card.parameters if p.name in known})),
-            name.removeprefix(start),
-        )
-        for name, law in laws
-    )
+def _every(module: Any, start: str, known: dict[str, Any]) -> list[tuple[float, str, float]]:
+    """Value and author of every law of a module whose name starts so, lowest first, and 1 where it is in its
+    range.
+    """
+    rows = []
+    for name, law in vars(module).items():
+        if name.startswith(start):
+            asked = {p.name: known[p.name] for p in law.card.parameters if p.name in known}
+            with flags.collect():  # told in its row
+                found = law.evaluate(**asked)
+            rows.append((float(found.value), name.removeprefix(start), float(not found.notices)))
+    return sorted(rows)
 
 
 class GeldartGroup(NamedTuple):

@@ -20,6 +20,7 @@ from granum.core import flags
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.materials.activities import SLACK, ElectrolyteActivity
+from granum.materials.correlation import Owner
 from granum.materials.formulas.activity import WATER, debye_huckel_slope, moller_function
 from granum.materials.formulas.mixed_electrolytes import Coefficients, log_activities
 from granum.materials.ions import Ions, ions_of
@@ -177,12 +178,22 @@ class Brine(eqx.Module):
         every = self.mixings()
         return max((m.low for m in every), default=273.15), min((m.high for m in every), default=373.15)
 
-    def heard(self, T: Any) -> None:
-        """Record where a temperature lies outside what is known."""
+    def heard(self, T: Any, molalities: Any) -> None:
+        """Record where a temperature, or what there is of the ions of a salt, lies outside what is known."""
         T, (low, high) = jnp.asarray(T, dtype=float), self.limits
         outside = (low - SLACK > T) | (high + SLACK < T)
         sources = "; ".join(dict.fromkeys(m.source for m in self.mixings()))
         flags.record(flags.EXTRAPOLATED, outside, T, "temperature", "materials.brines", low, high, sources)
+        counts = self.ions_per_salt
+        there = jnp.min(
+            jnp.where(counts > 0.0, molalities / np.where(counts > 0.0, counts, 1.0), jnp.inf), axis=1
+        )
+        for system, m in zip(self.salts, there, strict=True):
+            law = system.activity_law
+            assert isinstance(law, ElectrolyteActivity)
+            beyond = m > law.most * (1.0 + 1e-3)
+            owner = Owner.of_property(system.name, "water activity", system.french)
+            flags.record(flags.EXTRAPOLATED, beyond, m, "salt_molality", owner, 0.0, law.most, law.source)
 
     def water_activity(self, T: Any, molalities: Any) -> Any:
         """Activity of water over the solution."""

@@ -313,6 +313,10 @@ class SoluteSystem(eqx.Module):
 
 
 EINSTEIN = 2.5
+ESTIMATED = (
+    "No viscosity of this solution is known here: Einstein's law for the volume of the solute stands in, "
+    "half of what sugars and organic acids do, and far less in strong solutions."
+)
 SLACK = 0.51  # K: the limits of the source are rounded
 
 
@@ -355,8 +359,9 @@ class DiluteViscosity(eqx.Module):
         c = w * self.density(temperature, w) / self.molar_mass
         if self.coefficient is None:
             B = EINSTEIN * self.molar_mass / self.dry(temperature)
-            key, source = dynamic_viscosity_jones_dole.card.key, dynamic_viscosity_jones_dole.source
-            flags.record(flags.EXTRAPOLATED, w > 0.0, w, "solute_mass_fraction", key, 0.0, 0.0, source)
+            card = dynamic_viscosity_jones_dole
+            about = w > 0.0, w, "solute_mass_fraction", card.card.key
+            flags.record(flags.EXTRAPOLATED, *about, source=card.source, reason=ESTIMATED)
         else:
             B = 1e-3 * self.coefficient
         return dynamic_viscosity_jones_dole(self.solvent(temperature), jnp.maximum(c, 0.0), B)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
+from granum.core import flags
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError
@@ -17,10 +18,11 @@ from granum.core.units import show
 from granum.materials.correlation import Correlation, Missing, Owner
 from granum.materials.fluids import Fluid
 from granum.materials.library import session
+from granum.materials.solutes import SoluteSystem
 
 _WORDS = re.compile(r"^\s*(?P<name>.+?)\s+(?:at|à|@)\s+(?P<state>.+?)\s*$")
 _SOLUTION_WORDS = re.compile(r"^\s*(?P<name>.*(?:%|g/kg).*?)\s+(?:at|à|@)\s+(?P<state>.+?)\s*$")
-_SHARE = r"(?P<share>[\d.,]+\s*(?:wt\s*%|%|g/kg|kg/kg))"
+_SHARE = r"(?P<share>[-+−]?[\d.,]+\s*(?:wt\s*%|%|g/kg|kg/kg))"
 _SOLUTIONS = [
     re.compile(pattern, re.IGNORECASE)
     for pattern in (
@@ -31,6 +33,7 @@ _SOLUTIONS = [
 _SOLVENT = re.compile(
     r"\s+(?:in water|dans l['’]eau|brine|solution)$|^(?:brine of|saumure de)\s+", re.IGNORECASE
 )
+CRYSTALS = "So much does not dissolve at this temperature: crystals would form."
 _PARTS = re.compile(r"\s*(?:;|,\s|\s(?:and|et)\s)\s*")
 
 
@@ -59,9 +62,12 @@ class StatedFluid(NamedTuple):
             raise _not_a_fluid(given)
         if not 1 <= len(parts) <= 2:
             raise _not_a_fluid(given)
-        known = name if isinstance(name, Fluid) else _solution(str(name)) or _pure(str(name))
+        solution = None if isinstance(name, Fluid) else _shared(str(name))
+        known = name if isinstance(name, Fluid) else _solution(*solution) if solution else _pure(str(name))
         where = " " + _("of the 'fluid'")
         T = float(convert(parts[0], Parameter("temperature", KINDS["Temperature"]), where))
+        if solution is not None:
+            _saturated(*solution, T)
         P = (
             float(convert(parts[1], Parameter("pressure", KINDS["Pressure"]), where))
             if len(parts) > 1
@@ -173,17 +179,18 @@ def _pure(name: str) -> Fluid:
     return library.fluid(name)
 
 
-def _solution(name: str) -> Fluid | None:
-    """A solution said by its share of solute, ``"20 % calcium chloride"``, as a fluid; None of other words.
-
-    Its vapor is that of its water, at a lowered pressure.
-    """
+def _shared(name: str) -> tuple[SoluteSystem, float] | None:
+    """The solute of a solution, and its share, ``"20 % calcium chloride"``; None of other words."""
     found = next(filter(None, (pattern.match(name) for pattern in _SOLUTIONS)), None)
     if found is None:
         return None
     system = session().solute(_SOLVENT.sub("", found["solute"].strip()))
     share = float(
-        convert(found["share"], Parameter("solute_mass_fraction", KINDS["MassFraction"]), _("of the 'fluid'"))
+        convert(
+            found["share"],
+            Parameter("solute_mass_fraction", KINDS["MassFraction"]),
+            " " + _("of the 'fluid'"),
+        )
     )
     if share >= 1.0:
         raise InputError(
@@ -192,6 +199,21 @@ def _solution(name: str) -> Fluid | None:
             ),
             name="fluid",
         )
+    return system, share
+
+
+def _saturated(system: SoluteSystem, share: float, T: float) -> None:
+    """Record more than dissolves at a temperature."""
+    alone = float(system.value(T))
+    most = alone / (1.0 + alone)
+    owner = Owner.of_property(system.name, "solubility", system.french)
+    flags.record(
+        flags.EXTRAPOLATED, share > most, share, "solute_mass_fraction", owner, 0.0, most, reason=CRYSTALS
+    )
+
+
+def _solution(system: SoluteSystem, share: float) -> Fluid:
+    """A solution as a fluid; its vapor is that of its water, at a lowered pressure."""
     solvent = system.solvent
     ratio = share / (1.0 - share)
     laws = {

@@ -139,7 +139,7 @@ class TwoSaltCrystallizer(Unit):
         liquid = salts.left(dissolved, made.crystals)
         sizes = LogNormal(self.crystal_size, self.geometric_standard_deviation)
         solid = salts.crystallized(feed, made.crystals, sizes)
-        salts.brine.heard(T)
+        salts.brine.heard(T, made.molalities)
         unsolved(made.found, type(self).card, reason=_NOT_FOUND)
         product = feed.replace(solid=solid, liquid=liquid, gas=0.0 * feed.gas, temperature=T)
         return Parted(salts, self._chosen(salts), made, product)

@@ -255,8 +255,8 @@ def invariant_point(
     """
     pair = pair_of(first_salt, second_salt)
     T = jnp.asarray(temperature, dtype=float)
-    pair.heard(T)
     found = with_all(pair, float(temperature), (0, 1))
+    pair.heard(T, found.molalities)
     one, other = (float(m) for m in molalities(pair, found.molalities))
     x, y = fractions(pair, np.asarray(one), np.asarray(other))
     alone = pair.alone(T)
@@ -285,16 +285,16 @@ def reciprocal_saturation(
     The shares are by charge: of the cation of the second salt among the cations, of its anion among the
     anions (Jänecke's coordinates). Sodium and potassium with nitrate and chloride, at room temperature.
 
-    >>> reciprocal_saturation(temperature="25 degC", cation_share=0.5, anion_share=0.5).crystal
+    >>> reciprocal_saturation(temperature="25 degC", cation_share=0.5, anion_share=0.6).crystal
     'potassium nitrate'
     """
     salts = four_of(first_salt, second_salt)
     T = jnp.asarray(temperature, dtype=float)
-    salts.heard(T)
     ions = _directions(salts, np.asarray(float(cation_share)), np.asarray(float(anion_share)))
     scale, ratios = _saturated(salts, float(temperature), jnp.asarray(ions)[None])
     order = np.argsort(-np.asarray(ratios[0]))
     first, following = (salts.crystals[k] for k in order[:2])
+    salts.heard(T, scale[0] * jnp.asarray(ions))
     activity = salts.water_activity(T, scale[0] * jnp.asarray(ions))
     return ReciprocalSaturation(
         first.name,

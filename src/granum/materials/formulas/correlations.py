@@ -17,6 +17,7 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import KinematicViscosity, Number, Series, Temperature
 
 TWO_TEMPERATURES = "The upper temperature has to lie above the lower one."
+THINNER = "An oil is thinner at the upper temperature than at the lower one."
 
 Coefficients = Annotated[Number, Series("coefficients")]
 
@@ -58,6 +59,8 @@ def kinematic_viscosity_walther(
     """
     first, second = temperature_lower, temperature_upper
     impossible(second <= first, second, "temperature_upper", first, jnp.inf, TWO_TEMPERATURES)
+    thin, thick = kinematic_viscosity_upper, kinematic_viscosity_lower
+    impossible(thin >= thick, thin, "kinematic_viscosity_upper", 0.0, thick, THINNER)
     apart = jnp.where(first == second, 1.0, jnp.log(second / first))
     one, other = _doubly(kinematic_viscosity_lower), _doubly(kinematic_viscosity_upper)
     inside = one + (other - one) * jnp.log(temperature / first) / apart
