@@ -36,9 +36,9 @@ def _limit(megabytes: int) -> None:
 
 
 def _next(tasks: queue.SimpleQueue[Any], warm_up: Callable[[], object] | None) -> Any:
-    """The next task; while none is there, a process that has done none warms up, what tracing made is
-    written, and what compiling took and does not need any more, several hundred megabytes at times, goes
-    back to the system.
+    """The next task; while none is there, a process that has done its first warms up, since somebody uses
+    the page, what tracing made is written, and what compiling took and does not need any more, several
+    hundred megabytes at times, goes back to the system.
     """
     try:
         return tasks.get(timeout=REST)
@@ -94,10 +94,10 @@ def main() -> None:
 
     registry.everything()
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
-    warm_up: Callable[[], object] | None = partial(TASKS["warm_up"], {}, Tell())
+    warm_up, done = partial(TASKS["warm_up"], {}, Tell()), 0
     while True:
-        name, payload, code, units, new = _next(tasks, warm_up)
-        warm_up = None
+        name, payload, code, units, new = _next(tasks, warm_up if done == 1 else None)
+        done += 1
         forget_when_worn(CROWDED if new else BURSTING, MORE_CROWDED)
         cancelled.clear()
         set_language(code)
