@@ -244,7 +244,7 @@ def test_a_stirrer_in_a_solution_of_unknown_viscosity_is_not_told(
         raise ApplicabilityError("The solvent has no viscosity.")  # all of the library have one
 
     monkeypatch.setattr(SoluteSystem, "solution_viscosity", unknown)
-    line = vessel(tmp_path / "line.toml", "continuous", "20 degC")
+    line = vessel(tmp_path / "line.toml", "continuous", "20 degC", 10)  # compiled for itself, being patched
     run = line.solve()
     assert "electric_power_agitator" not in run.units["vessel"].uses
     assert "electric_power_agitator" not in run.as_json()["units"]["vessel"]["utilities"]
