@@ -16,7 +16,7 @@ from tests.flowsheet.corpus import cases as corpus
 
 from benchmarks.rows import Row, tell
 from granum.flowsheet import solve
-from granum.flowsheet.packing import compiled
+from granum.core.packing import compiled
 from granum.numerics import Anderson, Continuation
 
 

@@ -41,7 +41,7 @@ def test_elements_outside_their_kind_are_lost_and_flagged_alone() -> None:
 def test_the_note_records_no_impossible_step() -> None:
     with record_steps() as steps:
         assert np.isnan(dry_cake_per_filtrate(solids_mass_fraction=0.5, **SLURRY))
-    assert steps[0].flags & flags.OUTSIDE_DOMAIN
+    assert steps[0].result().flags & flags.OUTSIDE_DOMAIN
 
 
 def test_inside_another_computation_the_number_stays_and_is_flagged_and_its_gradient_is_finite() -> None:

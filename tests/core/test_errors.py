@@ -87,8 +87,8 @@ def test_formulas_work_inside_transformations_without_flags_leaking() -> None:
 def test_steps_are_recorded_for_the_note() -> None:
     with record_steps() as steps:
         reynolds_number(**GOOD)
-    assert [s.card.key for s in steps] == ["particles.reynolds_number"]
-    assert steps[0].outputs["reynolds_number"] == pytest.approx(100.0)
+    assert [s.key for s in steps] == ["particles.reynolds_number"]
+    assert steps[0].result().outputs["reynolds_number"] == pytest.approx(100.0)
 
 
 def test_atomic_write_replaces_or_leaves(tmp_path: Path) -> None:

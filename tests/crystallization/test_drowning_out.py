@@ -24,7 +24,7 @@ from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import NoNucleation, PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
 from granum.crystallization.lab_tests.solubility import SolubilityAntisolvent
-from granum.flowsheet.packing import as_arrays
+from granum.core.packing import as_arrays
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 

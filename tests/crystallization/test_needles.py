@@ -22,7 +22,7 @@ from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
 from granum.crystallization.population.needles import Aged, Segments, shifted
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.axes import gather_axes
-from granum.flowsheet.packing import compiled
+from granum.core.packing import compiled
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
 

@@ -342,7 +342,7 @@ def test_flash_dryer_in_a_recycle() -> None:
     little.
     """
     from granum.flowsheet import Flowsheet
-    from granum.flowsheet.packing import compiled
+    from granum.core.packing import compiled
     from granum.flowsheet.solving import solve
     from granum.streams.equipment.basics import Mixer, Splitter
 

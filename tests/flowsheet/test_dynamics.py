@@ -23,7 +23,7 @@ from granum.comminution.population import rate_matrix
 from granum.core import flags
 from granum.core.errors import ConvergenceError, GranumError
 from granum.flowsheet import Flowsheet, Line, Movement, Profile, march, solve_compiled
-from granum.flowsheet.packing import compiled
+from granum.core.packing import compiled
 from granum.particles.partition import RosinRammlerPartition
 from granum.streams.equipment.basics import Mixer, Single, Splitter, StirredTank
 from granum.streams.mixture import Mixture, Species

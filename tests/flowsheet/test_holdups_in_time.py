@@ -17,7 +17,7 @@ from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
 from granum.flowsheet import Flowsheet, Profile, march, solve
-from granum.flowsheet.packing import compiled
+from granum.core.packing import compiled
 from granum.settling.equipment.clarifier_thickener import ClarifierThickener
 from granum.settling.equipment.clarifiers import CircularClarifier
 from granum.settling.velocities import Vesilind

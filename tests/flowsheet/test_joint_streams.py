@@ -15,7 +15,7 @@ import pytest
 
 from granum.cases.alone import ordinary
 from granum.core import registry
-from granum.flowsheet.packing import compiled
+from granum.core.packing import compiled
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Unit

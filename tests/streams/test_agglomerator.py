@@ -11,7 +11,7 @@ import pytest
 import granum as gr
 from granum.core import registry
 from granum.flowsheet import Flowsheet, gather_axes
-from granum.flowsheet.packing import compiled
+from granum.core.packing import compiled
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
 

@@ -12,7 +12,7 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.cases import read_studies
-from granum.flowsheet.packing import compiled
+from granum.core.packing import compiled
 from granum.studies.lines import LineSubject
 
 FOLDER = EXAMPLES / "potassium-nitrate"

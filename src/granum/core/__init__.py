@@ -7,7 +7,7 @@ from typing import Any
 _HOME = {
     "formula": "formulas",
     "Formula": "formulas",
-    "record_steps": "formulas",
+    "record_steps": "steps",
     "law": "declarations",
     "equipment": "declarations",
     "lab_test": "declarations",

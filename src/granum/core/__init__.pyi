@@ -17,7 +17,6 @@ from granum.core.flags import (
 from granum.core.formulas import (
     Formula as Formula,
     formula as formula,
-    record_steps as record_steps,
 )
 from granum.core.parameters import (
     Parameter as Parameter,
@@ -28,4 +27,7 @@ from granum.core.procedures import (
 )
 from granum.core.results import (
     Result as Result,
+)
+from granum.core.steps import (
+    record_steps as record_steps,
 )

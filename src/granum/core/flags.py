@@ -58,6 +58,7 @@ class _Collector:
         return jax.extend.core.get_opaque_trace_state() == self.level
 
 
+_OUTERMOST = jax.extend.core.get_opaque_trace_state()
 _active: ContextVar[_Collector | None] = ContextVar("granum_flags", default=None)
 _current: ContextVar[Any] = ContextVar("granum_formula", default=None)
 
@@ -73,6 +74,11 @@ def collect(only: int = 0) -> Iterator[list[Record]]:
         yield collector.records
     finally:
         _active.reset(token)
+
+
+def is_inner() -> bool:
+    """Whether this runs while JAX traces, even if all numbers at hand are known."""
+    return jax.extend.core.get_opaque_trace_state() != _OUTERMOST
 
 
 def listening() -> bool:

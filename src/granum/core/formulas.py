@@ -8,7 +8,6 @@ import functools
 import inspect
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from contextvars import ContextVar
 from dataclasses import replace
 from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints, overload
 
@@ -24,38 +23,15 @@ from granum.core.docstrings import CompletedDoc
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
-from granum.core.notices import beside, describe
 from granum.core.parameters import Parameter, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
+from granum.core.steps import Step, floats, recorded
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_steps: ContextVar[list[Result] | None] = ContextVar("granum_steps", default=None)
-
 KELVIN = "A temperature given here is below −123 °C: a number without a unit is read in kelvin."
-
-
-@contextmanager
-def record_steps() -> Iterator[list[Result]]:
-    """Keep every formula evaluated on concrete values inside the block: the raw material of a calculation
-    note.
-    """
-    steps: list[Result] = []
-    token = _steps.set(steps)
-    try:
-        yield steps
-    finally:
-        _steps.reset(token)
-
-
-def _floats(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return type(value)(*map(_floats, value)) if hasattr(value, "_fields") else tuple(map(_floats, value))
-    single = getattr(value, "ndim", 1) == 0 and jnp.issubdtype(value.dtype, jnp.floating)
-    # a call on constants inside an outer jit yields a tracer
-    return value.item() if single and not is_tracer(value) else value
 
 
 class Formula(Generic[P, R]):
@@ -378,7 +354,7 @@ class Formula(Generic[P, R]):
         for value, (low, high) in zip(values, limits, strict=True):
             if type(value) is not float or not low < value < high:
                 return _DYNAMIC
-        return _floats(compiled(*[values[i] if i >= 0 else fixed for i, fixed in order]))
+        return floats(compiled(*[values[i] if i >= 0 else fixed for i, fixed in order]))
 
     @overload
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R: ...
@@ -391,25 +367,26 @@ class Formula(Generic[P, R]):
             kwargs = dict(self._binder.resolved(args, kwargs)[0])
         nested = flags.nested()
         heard = flags.listening()
-        if not args and not nested and not heard and _steps.get() is None:
+        noted = not nested and recorded() is not None
+        if not args and not nested and not heard and not noted:
             quick = self._quick(kwargs)
             if quick is not _DYNAMIC:
                 return self._told(quick, kwargs)
         values, traced, batched = self._collect_values(args, kwargs)
+        if noted:
+            return floats(self._step(values).value)
         if traced or nested:
             return self._body(values)
-        if _steps.get() is not None:
-            return self._evaluate(values).value
         key, dynamic = self._split(values)
         if heard:
             with self._fitting(values):
                 out, records = self._compile(key, "checked")(*dynamic)
             flags.hand_on(records)
-            return out if batched else self._told(_floats(out), kwargs, args)
+            return out if batched else self._told(floats(out), kwargs, args)
         if batched:
             with self._fitting(values):
                 return self._compile(key, "masked")(*dynamic)
-        return self._told(_floats(self._compile(key, "bare")(*dynamic)), kwargs, args)
+        return self._told(floats(self._compile(key, "bare")(*dynamic)), kwargs, args)
 
     def _told(self, out: Any, kwargs: Mapping[str, Any], args: tuple[Any, ...] = ()) -> Any:
         """What single inputs gave, unless they contradict one another: that raises. No number in, as from a
@@ -437,34 +414,25 @@ class Formula(Generic[P, R]):
                 )
             )
         result = replace(
-            self._evaluate(values), defaults=self._binder.left_out(args, kwargs), origins=origins
+            self._step(values).result(), defaults=self._binder.left_out(args, kwargs), origins=origins
         ).told(of_inputs)
         return result if batched else result.possible()
 
-    def _evaluate(self, values: list[Any]) -> Result:
-        key, dynamic = self._split(values)
-        with self._fitting(values):
-            out, records = self._compile(key, "checked")(*dynamic)
+    def _step(self, values: list[Any]) -> Step:
+        """Evaluated, and kept where steps are recorded."""
+        if flags.is_inner():
+            out, records = self._checked(values)
+        else:
+            key, dynamic = self._split(values)
+            with self._fitting(values):
+                out, records = self._compile(key, "checked")(*dynamic)
         flags.hand_on(records)
         inputs = {p.name: value for p, value in zip(self.card.parameters, values, strict=True)}
-        shape = (
-            np.broadcast_shapes(*(np.shape(x) for x in jax.tree.leaves(out)))
-            if not isinstance(out, tuple)
-            else np.shape(jax.tree.leaves(out)[0])
-        )
-        own = {p.name for p in (*self.card.parameters, *self.card.outputs)}
-        result = Result(
-            self.card,
-            inputs,
-            _floats(out),
-            flags.bits(records, shape),
-            describe(records),
-            beside=[] if shape else beside(records, own),
-        )
-        steps = _steps.get()
+        step = Step(self.key, inputs, out, records)
+        steps = recorded()
         if steps is not None:
-            steps.append(result)
-        return result
+            steps.append(step)
+        return step
 
 
 Formula.__doc__ = CompletedDoc(Formula.__doc__, of_instances=True)  # type: ignore[assignment]

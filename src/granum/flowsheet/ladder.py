@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from granum.core.i18n import _
+from granum.core.packing import as_arrays, compiled
 from granum.core.units import format_number, show
 from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
-from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import QUICK_METHOD, neighbor, no_stream, nothing_known, solve, unknowns
 from granum.flowsheet.specifications import (

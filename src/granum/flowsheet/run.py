@@ -19,6 +19,7 @@ from granum.core.conversion import convert
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.formulas import Result
 from granum.core.i18n import _
+from granum.core.packing import as_arrays, compiled
 from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
 from granum.core.utilities import carrier
@@ -30,7 +31,6 @@ from granum.flowsheet.findings import Findings, fault_in_time
 from granum.flowsheet.fitted import fit_notices
 from granum.flowsheet.labelled import attributes, stream_dataset, stream_frame
 from granum.flowsheet.ladder import climb
-from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.passing import told
 from granum.flowsheet.rounding import thresholds, without_noise
 from granum.flowsheet.schedule import Schedule, schedule
@@ -51,23 +51,11 @@ from granum.flowsheet.utilities import (
 from granum.flowsheet.watching import Watch
 from granum.streams.inside_charts import drawn_shares
 from granum.streams.stream import Stream, median_size
-from granum.streams.units import Check, Operated, Sheet, Unit
+from granum.streams.units import Check, Sheet, Unit
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-
-@compiled
-def _operated(unit: Unit, inlets: Mapping[str, Stream]) -> Operated:
-    """What a unit works out on its way, for charts; nobody hears its flags here."""
-    with flags.collect():
-        made = unit.operate(**inlets)
-    return Operated(made.outlets, made.figures, (), made.inside, [], {})
-
-
-def _as_jax(leaf: Any) -> Any:
-    return jnp.asarray(leaf) if isinstance(leaf, np.ndarray | np.generic) else leaf
 
 
 @compiled
@@ -331,13 +319,13 @@ class Run:
     @cached_property
     def notes(self) -> dict[str, tuple[Result, ...]]:
         """The formulas each unit evaluates, with their numbers: the calculation note. Each unit is calculated
-        once more, with numbers in place of compiled code.
+        once more.
         """
         written = {}
         for name in self.sheet.order:
             with record_steps() as steps:
                 self.sheet.units[name].operate(**self._inlets(name))
-            written[name] = tuple(steps)
+            written[name] = tuple(step.result() for step in steps)
         return written
 
     def charts(self) -> dict[str, Any]:
@@ -348,9 +336,9 @@ class Run:
         for name, unit in self.sheet.units.items():
             inlets = self._inlets(name)
             if type(unit).charts is not Unit.charts:
-                thing = as_arrays(unit)
-                made = _operated(thing, as_arrays(inlets))
-                drawn = thing.charts(jax.tree.map(_as_jax, made), inlets)
+                with flags.collect():  # nobody hears them here
+                    made = unit.operate(**inlets)
+                drawn = unit.charts(made, inlets)
                 found |= {f"{name} · {heading}": figure for heading, figure in drawn.items()}
             ports = {port: f"{name}.{port}" for port in type(unit).outlet_names()}
             leaving = {port: self.streams[there] for port, there in ports.items() if there in self.streams}

@@ -7,6 +7,7 @@ from __future__ import annotations
 import abc
 import inspect
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, NamedTuple, final, get_type_hints
 
@@ -15,7 +16,10 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import flags
+from granum.core.conversion import is_tracer
 from granum.core.limits import Limit
+from granum.core.packing import as_arrays, compiled, of_jax
+from granum.core.steps import Step, record_steps, recorded
 from granum.core.utilities import Utility
 from granum.streams.stream import Stream
 
@@ -125,24 +129,15 @@ class Unit(eqx.Module):
         """The one pass: everything about this unit for these inlets; without figures and checks where not
         ``whole``.
         """
-        figures: Any = None
-        checks: tuple[Check, ...] = ()
-        uses: dict[str, Any] = {}
-        with flags.collect() as records:
-            inside = self.inside(**inlets)
-            outlets = self.outlets(inside, **inlets)
-            if whole:
-                figures = self.figures(inside, outlets, **inlets)
-                measured = self.measured(inside, outlets, figures, **inlets)
-                checks = tuple(self._checked(x, measured[n]) for n, x in self.limits.items() if n in measured)
-                drawn = self.drawn(inside, outlets, figures, **inlets)
-                uses = {
-                    name: jnp.asarray(drawn[name], dtype=float)
-                    for name in self.utilities
-                    if drawn[name] is not None
-                }
-        flags.hand_on(records)
-        return Operated(outlets, figures, checks, inside, records, uses)
+        if flags.is_inner() or any(map(is_tracer, jax.tree.leaves((self, inlets)))):
+            made = _passed(whole, self, inlets)
+        else:
+            steps = recorded()
+            made, noted = of_jax(_run(whole, steps is not None, *as_arrays((self, inlets))))
+            if steps is not None:
+                steps += noted
+        flags.hand_on(made.records)
+        return made
 
     @final
     def __call__(self, *args: Stream, **inlets: Stream) -> Any:
@@ -224,3 +219,29 @@ class Dynamic(abc.ABC):
         self, state: Any, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
     ) -> tuple[Any, Any]:
         """The state and the outlets after a step."""
+
+
+def _passed(whole: bool, unit: Unit, inlets: Mapping[str, Stream]) -> Operated:
+    figures: Any = None
+    checks: tuple[Check, ...] = ()
+    uses: dict[str, Any] = {}
+    with flags.collect() as records:
+        inside = unit.inside(**inlets)
+        outlets = unit.outlets(inside, **inlets)
+        if whole:
+            figures = unit.figures(inside, outlets, **inlets)
+            measured = unit.measured(inside, outlets, figures, **inlets)
+            checks = tuple(unit._checked(x, measured[n]) for n, x in unit.limits.items() if n in measured)
+            drawn = unit.drawn(inside, outlets, figures, **inlets)
+            uses = {
+                name: jnp.asarray(drawn[name], dtype=float)
+                for name in unit.utilities
+                if drawn[name] is not None
+            }
+    return Operated(outlets, figures, checks, inside, records, uses)
+
+
+@compiled
+def _run(whole: bool, noted: bool, unit: Unit, inlets: Mapping[str, Stream]) -> tuple[Operated, list[Step]]:
+    with record_steps() if noted else nullcontext([]) as steps:
+        return _passed(whole, unit, inlets), steps

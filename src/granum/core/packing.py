@@ -42,6 +42,11 @@ def as_arrays(tree: Any) -> Any:
     return jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, tree)
 
 
+def of_jax(tree: Any) -> Any:
+    """What ``compiled`` gave, as code expects it that was written for JAX."""
+    return jax.tree.map(lambda x: jnp.asarray(x) if isinstance(x, np.ndarray | np.generic) else x, tree)
+
+
 @lru_cache(maxsize=64)
 def _built(function: Callable[..., Any], tree: Any, others: tuple[Any, ...]) -> Callable[[list[Any]], Any]:
     shape: list[Any] = []
