@@ -35,8 +35,8 @@ def in_phases(feed: Mapping[str, Any]) -> dict[str, str]:
 
 
 def flow_of(feed: Mapping[str, Any], name: str, per_volume: float | None = None) -> float:
-    """A flow that a feed says, kg/s; none where it does not. One that it says as a volume is refused, unless a
-    density, kg/m³, is near enough.
+    """A flow that a feed says, kg/s; none where it does not. One that it says as a volume is refused, unless
+    a density, kg/m³, is near enough.
     """
     value = feed.get(name)
     if isinstance(value, str) and in_unit_of(value, "m^3/s"):

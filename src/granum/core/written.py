@@ -78,8 +78,8 @@ def apart(text: str) -> str:
     """The number of a text whose digits stand in threes apart, such as ``60 300`` or ``1,200,300``; empty
     where they do not.
 
-    It may be thousands or two values: where several values may stand only its writer knows. But no value begins
-    with a zero before other digits: ``10 000`` is ten thousand.
+    It may be thousands or two values: where several values may stand only its writer knows. But no value
+    begins with a zero before other digits: ``10 000`` is ten thousand.
 
     >>> apart("60 300 um"), apart("60 85 um"), apart("10 000 um")
     ('60 300', '', '')
@@ -98,7 +98,13 @@ _EACH = {"days": 86400.0, "hours": 3600.0, "minutes": 60.0, "seconds": 1.0}
 def duration(text: str) -> float | None:
     """Seconds of a time said in several units, such as ``2 h 30 min`` or ``2h30``; None of any other text.
 
-    >>> duration("2 h 30 min"), duration("2h30"), duration("1 day 4 h"), duration("30 min"), duration("30 5 s")
+    >>> (
+    ...     duration("2 h 30 min"),
+    ...     duration("2h30"),
+    ...     duration("1 day 4 h"),
+    ...     duration("30 min"),
+    ...     duration("30 5 s"),
+    ... )
     (9000.0, 9000.0, 100800.0, None, None)
     """
     found = _DURATION.fullmatch(tidy(text).strip()) if len(text) <= LONGEST else None

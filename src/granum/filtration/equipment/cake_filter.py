@@ -116,8 +116,8 @@ class CakeFilter(CakeMaker):
     The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power
     ``compressibility`` of the pressure drop. Gas drains it only above its threshold pressure, and never below
     what Brooks and Corey's capillarity holds. What is compressible shrinks as it is drained, and may crack,
-    unless it was squeezed before: a check says so beyond a compressibility of 0.5, our own number. With a ``transportable_moisture_limit`` the moisture of the
-    cake is checked against it.
+    unless it was squeezed before: a check says so beyond a compressibility of 0.5, our own number. With a
+    ``transportable_moisture_limit`` the moisture of the cake is checked against it.
     """
 
     area: Area
@@ -149,7 +149,7 @@ class CakeFilter(CakeMaker):
         ),
         # what draws gas and cake together below the entry pressure is in the source, the number is our own
         "cracks": Limit(
-            "compressibility of a cake drained by gas without a squeeze before: beyond, it shrinks and cracks",
+            "compressibility of a cake that gas drains unsqueezed: beyond, it shrinks and cracks",
             0.0,
             0.5,
             "dimensionless",

@@ -27,7 +27,6 @@ from granum.estimation.lines import straight_line
 from granum.filtration.formulas.deliquoring import saturation_after_deliquoring
 from granum.filtration.formulas.washing import wash_effluent_concentration
 
-
 ROUNDS = 3  # of weighing the columns by their scatter
 LEAST_SCATTER = 1e-9  # relative, of a column that an equation has made
 
@@ -45,8 +44,8 @@ class CompressionCell(LabTest):
     """Local resistance and void fraction of a cake against the pressure on its solid, fitted together with
     one characteristic pressure.
 
-    The scatter of either column is taken proportional to its value, and how large it is from what earlier fits
-    leave of each: resistances scatter more than void fractions. The result feeds ``cake_profile``.
+    The scatter of either column is taken proportional to its value, and how large it is from what earlier
+    fits leave of each: resistances scatter more than void fractions. The result feeds ``cake_profile``.
     """
 
     solids_pressure: Annotated[PressureDrop, Series("points")]
