@@ -252,7 +252,7 @@ def test_a_compressible_cake_drained_unsqueezed_may_crack():
     """
     m = mixture()
     feed = stream(m, solid=0.1, water=1.0)
-    word = "compressibility of a cake that gas drains unsqueezed: beyond, it shrinks and cracks"
+    word = "compressibility of a cake drained but not squeezed: beyond, it shrinks and cracks"
 
     def check(kind, compressibility, **more):
         unit = kind(50.0, 3e5, 1e11, 0.45, compressibility=compressibility, **more)

@@ -149,7 +149,7 @@ class CakeFilter(CakeMaker):
         ),
         # what draws gas and cake together below the entry pressure is in the source, the number is our own
         "cracks": Limit(
-            "compressibility of a cake that gas drains unsqueezed: beyond, it shrinks and cracks",
+            "compressibility of a cake drained but not squeezed: beyond, it shrinks and cracks",
             0.0,
             0.5,
             "dimensionless",
