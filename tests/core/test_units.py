@@ -230,6 +230,29 @@ def test_a_comma_or_a_fraction_in_a_series_is_not_guessed(text: str, one: str) -
         units.read_series(text, KINDS["Length"], "class_sizes")
 
 
+@pytest.mark.parametrize(
+    ("text", "kind", "si"),
+    [
+        ("10 000 um", "Length", 1e-2),  # no value of several is written 000
+        ("1 050 mm", "Length", 1.05),
+        ("2 h 30 min", "Time", 9000.0),
+        ("2h30", "Time", 9000.0),
+        ("1 day 4 h", "Time", 100800.0),
+        ("5 min 20,5 s", "Time", 320.5),
+        ("5 ksc", "PressureDrop", 5 * 98066.5),  # kgf/cm2, as in India
+        ("864 MT/day", "MassFlow", 10.0),
+    ],
+)
+def test_numbers_as_people_write_them(text: str, kind: str, si: float) -> None:
+    assert units.read_values(text, KINDS[kind]) == pytest.approx(si, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["30 5 s", "1 h 75 min", "10 min 2 h"])
+def test_what_is_no_duration_stays_what_it_was(text: str) -> None:
+    with pytest.raises(InputError):
+        units.read_quantity(text, KINDS["Time"])
+
+
 def test_a_whole_number_and_a_fraction_are_one_number() -> None:
     assert units.read_quantity("1 1/2 inch", KINDS["Length"]) == pytest.approx(1.5 * 0.0254)
     assert units.read_quantity("-1 1/4 degC", KINDS["Temperature"]) == pytest.approx(273.15 - 1.25)

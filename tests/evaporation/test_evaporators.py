@@ -110,6 +110,16 @@ def test_one_effect_closes_whatever_is_set(seed):
             assert float(liquid[1] / liquid[0]) <= saturated * (1.0 + 1e-9)
 
 
+def test_vapor_that_is_enough_buys_no_steam():
+    """Of a hot feed the compressed vapor is more than the wall takes: nothing is bought."""
+    entering = brine(0.05, "101 degC")
+    made = RecompressionEvaporator("80 m^2", "1 atm", "1.8 bar").operate(feed=entering)
+    closes(made, entering)
+    assert float(made.outlets.vapor.gas_flow) > 0.0
+    assert float(made.outlets.heat_duty) == 0.0
+    assert float(made.figures.steam_flow) == 0.0 == float(made.figures.steam_economy)
+
+
 @pytest.mark.parametrize(
     "feeding",
     [

@@ -22,6 +22,7 @@ LINES = (
     "freeze-dried-food",
     "paper-machine",
     "steam-drying",
+    "red-mud",
 )
 
 
@@ -61,6 +62,29 @@ def test_primary_clarifier_removes_what_plants_remove() -> None:
     # what enters with the sewage and neither overflows nor dries leaves as cake
     solid = line.streams["sewage"].solid_flow - line.streams["settled_water"].solid_flow
     assert float(line.streams["dry_sludge"].solid_flow) == pytest.approx(float(solid), rel=1e-6)
+
+
+def test_mud_washed_by_five_stages_that_mix_badly_lies_between_five_and_four_perfect_ones() -> None:
+    """Each stage by its balance: what comes down and what flows over leave it with one strength."""
+    line = run("red-mud")
+    enters, leaves, water = (float(line.streams[n].liquid_flow) for n in ("mud", "washed_mud", "wash"))
+
+    def lost(stages: int) -> float:
+        A, b = np.zeros((stages, stages)), np.zeros(stages)
+        for k in range(stages):
+            A[k, k] = (enters if k == 0 else leaves) + water
+            if k > 0:
+                A[k, k - 1] = -leaves
+            if k < stages - 1:
+                A[k, k + 1] = -water
+        b[0] = enters
+        return leaves * np.linalg.solve(A, b)[-1] / enters
+
+    assert lost(5) < line.figure("washers.soluble_loss") < lost(4)
+    soda = {n: float(line.streams[n].liquid[1]) for n in ("slurry", "liquor", "cake")}
+    assert soda["slurry"] == pytest.approx(soda["liquor"] + soda["cake"], rel=1e-9)
+    assert soda["cake"] < 0.01 * float(line.streams["cake"].solid_flow)  # works lose 1 to 10 kg/t, recalled
+    assert all(c.ok for u in line.units.values() for c in u.checks)
 
 
 def test_circulating_load_of_a_grinding_circuit() -> None:

@@ -246,6 +246,28 @@ def test_what_turns_a_drum_has_the_size_of_a_nameplate():
     assert drive(20.0, drive_power_per_area=0.0) == 0.0
 
 
+def test_a_compressible_cake_drained_unsqueezed_may_crack():
+    """Strubel and others: below its entry pressure a compressible cake consolidates as it is drained. A hard
+    one does not, nor one that was squeezed before; what is not drained does not crack.
+    """
+    m = mixture()
+    feed = stream(m, solid=0.1, water=1.0)
+    word = "compressibility of a cake drained but not squeezed: beyond, it shrinks and cracks"
+
+    def check(kind, compressibility, **more):
+        unit = kind(50.0, 3e5, 1e11, 0.45, compressibility=compressibility, **more)
+        return {c.name: c for c in unit.operate(feed=feed).checks}[word]
+
+    leaf = {"full_cake_thickness": 0.01, "particle_diameter": 5e-5}
+    soft = check(PressureLeafFilter, 0.7, deliquoring_time=300.0, **leaf)
+    assert not soft.ok
+    assert soft.value == 0.7
+    assert check(PressureLeafFilter, 0.3, deliquoring_time=300.0, **leaf).ok
+    assert check(PressureLeafFilter, 0.7, **leaf).value == 0.0
+    squeezed = {"chamber_depth": 0.03, "void_fraction_squeezed": 0.4, "particle_diameter": 5e-5}
+    assert check(MembranePress, 0.7, deliquoring_time=300.0, **squeezed).value == 0.0
+
+
 def test_gas_enters_no_cake_below_its_threshold_pressure():
     """Wakeman and Tarleton's 4.6 sigma (1 - e)/(e d), by hand for 2 um and a void fraction of 0.45; above it
     Brooks and Corey leave the fifth power of the ratio of pressures.

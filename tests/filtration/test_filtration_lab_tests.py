@@ -136,6 +136,22 @@ def test_changing_pressure_by_its_exact_integral():
     assert found.values == pytest.approx({"cake_resistance": alpha, "medium_resistance": R}, rel=1e-8)
 
 
+def test_each_column_of_a_compression_cell_has_its_own_scatter():
+    """With void fractions that are nearly exact the characteristic pressure is known, and the rest is a
+    straight line through the logarithms of the resistances: the slope's standard error by hand.
+    """
+    p = np.geomspace(1e3, 1e6, 12)
+    load, noise = np.log1p(p / 1e4), np.random.default_rng(3).normal(size=12)
+    solid = 0.2 * np.exp(0.1 * load + 2e-4 * np.random.default_rng(4).normal(size=12))
+    alpha = 1e11 * np.exp(0.4 * load + 0.05 * noise)
+    found = CompressionCell(p, alpha, 1.0 - solid).fit()
+    line = np.polynomial.Polynomial.fit(load, np.log(alpha), 1).convert()
+    rest = np.log(alpha) - line(load)
+    error = np.sqrt(rest @ rest / 10.0 / np.sum((load - load.mean()) ** 2))
+    assert found["compressibility"].standard_error == pytest.approx(error, rel=0.1)
+    assert found["compaction_exponent"].standard_error < 0.05 * error
+
+
 def test_compression_cell_washing_and_deliquoring():
     p = np.geomspace(2e3, 8e5, 12)
     cell = CompressionCell(

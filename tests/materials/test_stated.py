@@ -4,6 +4,8 @@ import json
 import subprocess
 import sys
 
+import jax.numpy as jnp
+import numpy as np
 import pytest
 
 import granum as gr
@@ -11,6 +13,7 @@ from granum.cases.studying import studies_of_text
 from granum.cases.worded import study_text
 from granum.core.errors import InputError
 from granum.materials.stated import StatedFluid
+from granum.studies.subjects import EXTRAPOLATED, FINE, FormulaSubject
 
 GRAIN = {"particle_diameter": "85 um", "particle_density": 2630.0}
 
@@ -150,3 +153,15 @@ def test_a_fluid_outside_its_data_is_told(words, told):
     found = gr.particles.terminal_velocity.evaluate("50 um", 2630.0, fluid=words)
     assert bool(found.flags.any()) == bool(told)
     assert any(told in notice["message"] for notice in found.notices) == bool(told)
+
+
+@pytest.mark.parametrize(("words", "beyond"), [("water at 20 °C", False), ("olive oil at 500 °C", True)])
+def test_a_fluid_outside_its_data_is_told_by_tests_and_studies_too(words, beyond):
+    time, volume = np.arange(1.0, 7.0) * 60.0, np.sqrt(np.arange(1.0, 7.0)) * 2e-4
+    found = gr.filtration.LeafTest(
+        time, volume, area=5e-3, pressure_drop=8e4, fluid=words, dry_cake_per_filtrate=15.0
+    ).fit()
+    assert any("liquid viscosity" in row["message"] for row in found.flags) == beyond
+    subject = FormulaSubject.of("particles.terminal_velocity", {"particle_density": 2630.0, "fluid": words})
+    run = subject.traced(("particle_diameter",), ("terminal_velocity",))
+    assert int(run(subject.numbers(), jnp.asarray([5e-5]))[1]) == (EXTRAPOLATED if beyond else FINE)

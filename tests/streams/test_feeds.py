@@ -34,6 +34,28 @@ def test_flows_and_shares_by_hand() -> None:
     assert float(made.gas_flow) == 0.0
 
 
+def test_a_feed_may_be_a_volume() -> None:
+    """By hand: water of 20 °C has 998.2 kg/m³, quartz 2650; dry air 1.2041 at 1 atm, US gallons 3.7854 L. A
+    humid gas is as large as its vapor makes it.
+    """
+    water = feed(WET, temperature="20 degC", liquid_flow="440 gpm")
+    assert float(water.liquid_flow) == pytest.approx(440.0 * 3.785412e-3 / 60.0 * 998.2, rel=2e-3)
+    quartz = {"quartz": 1.0, "calcite": 0.0}
+    slurry = feed(
+        WET, temperature="20 degC", mass_flow="36 m3/h", solids_mass_fraction=0.2, solid=quartz, sizes=EVEN
+    )
+    per_kilogram = 0.2 / float(slurry.solid_density) + 0.8 / 998.2
+    assert float(slurry.mass_flow) == pytest.approx(0.01 / per_kilogram, rel=2e-3)
+    assert float(slurry.slurry_volume_flow) == pytest.approx(0.01, rel=1e-12)
+    dry = feed(WET, temperature="20 degC", gas_flow="3600 m3/h", gas={"dry air": 1.0, "water": 0.0})
+    assert float(dry.gas_flow) == pytest.approx(1.2041, rel=1e-3)
+    humid = feed(WET, temperature="60 degC", gas_flow="2 m3/s", relative_humidity="60 %")
+    assert float(humid.gas_volume_flow) == pytest.approx(2.0, rel=1e-12)
+    assert float(humid.gas_flow) < 2.0 * 1.0596  # of dry air at 60 °C
+    with pytest.raises(InputError, match="'solid_flow': unit 'm3/h' does not fit"):
+        feed(WET, solid_flow="1 m3/h", solid=quartz, sizes=EVEN)
+
+
 @pytest.mark.parametrize("gases", [("nitrogen", "ethanol"), ("ethanol", "nitrogen")])
 def test_relative_humidity_is_that_of_the_pair(gases: tuple[str, str]) -> None:
     """Half the vapor pressure of ethanol at 20 °C: some 0.05 kg per kg of nitrogen, not the 0.007 of water in
@@ -67,6 +89,16 @@ def test_relative_humidity_is_that_of_the_pair(gases: tuple[str, str]) -> None:
 def test_what_is_refused(words: dict[str, Any], told: str) -> None:
     with pytest.raises(InputError, match=told):
         feed(WET, **words)
+
+
+def test_a_solid_among_the_liquids_and_drops_at_their_temperature() -> None:
+    with pytest.raises(InputError, match="'quartz' is a solid here: give it among the solids"):
+        mixture_of(["water", "quartz"], [], [], EDGES)
+    with pytest.raises(InputError, match="'lactose monohydrate'"):
+        mixture_of(["water"], ["lactose"], [], EDGES)
+    # palm oil at 90 °C: 869 kg/m³ by its line as a liquid
+    drops = mixture_of(["water"], ["palm oil"], [], EDGES).densities("solids", 363.15)
+    assert float(drops[0]) == pytest.approx(float(fluid("palm oil").liquid_density(363.15)), rel=1e-6)
 
 
 def test_the_line_in_python_is_the_line_of_the_case_file() -> None:

@@ -18,7 +18,7 @@ from typing import Any, Concatenate, ParamSpec
 import tomlkit
 
 from granum.cases.alone import tables
-from granum.cases.flows import BY_PHASE, BY_TOTAL, flow_of, in_phases, in_totals, percent
+from granum.cases.flows import BY_PHASE, BY_TOTAL, WATER, flow_of, in_phases, in_totals, percent
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
 from granum.cases.reading import knowing_own, own_materials, parsed, quantity
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
@@ -352,7 +352,7 @@ def _entering(feeds: Mapping[str, Any]) -> float:
     for table in feeds.values():
         for word in ("mass_flow", "solid_flow", "liquid_flow"):
             try:
-                total += flow_of(table, word)
+                total += flow_of(table, word, WATER)
             except (GranumError, TypeError):
                 continue
     return total
@@ -365,7 +365,7 @@ def _solvent(raw: Mapping[str, Any]) -> float:
     for table in table_of(raw, "feeds").values():
         with contextlib.suppress(GranumError, TypeError):
             share = share_of(table_of(table, "liquid").get(first, "100 %"), first)
-            total += flow_of(table, "liquid_flow") * share
+            total += flow_of(table, "liquid_flow", WATER) * share
     return total
 
 
@@ -377,7 +377,7 @@ def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
     flow = GAS_PER_FEED * (_entering(table_of(found.raw, "feeds")) or 1000.0 / 3600.0)
     moist = table_of(table_of(found.raw, "feeds"), origin)
     if moist:
-        flow = max(flow, GAS_PER_MOISTURE * flow_of(moist, "liquid_flow"))
+        flow = max(flow, GAS_PER_MOISTURE * flow_of(moist, "liquid_flow", WATER))
     now = outline(case)
     heats = "temperature_inlet" in table_of(table_of(now.raw, "units"), unit)
     gas = drying_gas(table_of(now.raw, "mixture"), flow, heats)

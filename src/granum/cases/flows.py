@@ -6,8 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from granum.cases.reading import quantity
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.units import in_unit_of
 
 BY_TOTAL, BY_PHASE = ("mass_flow", "solids_mass_fraction"), ("solid_flow", "liquid_flow")
+WATER = 1000.0  # kg/m³, near enough to size what a feed needs
 
 
 def percent(share: float) -> str:
@@ -30,9 +34,21 @@ def in_phases(feed: Mapping[str, Any]) -> dict[str, str]:
     return solid | {"liquid_flow": _said(total * (1.0 - share))}
 
 
-def flow_of(feed: Mapping[str, Any], name: str) -> float:
-    """A flow that a feed says, kg/s; none where it does not."""
-    return quantity(feed[name], "MassFlow", name, "") if name in feed else 0.0
+def flow_of(feed: Mapping[str, Any], name: str, per_volume: float | None = None) -> float:
+    """A flow that a feed says, kg/s; none where it does not. One that it says as a volume is refused, unless
+    a density, kg/m³, is near enough.
+    """
+    value = feed.get(name)
+    if isinstance(value, str) and in_unit_of(value, "m^3/s"):
+        if per_volume is None:
+            raise InputError(
+                _("'{name}' = '{value}' is a volume: write it as a mass first.").format(
+                    name=name, value=value
+                ),
+                name=name,
+            )
+        return quantity(value, "VolumeFlow", name, "") * per_volume
+    return 0.0 if value is None else quantity(value, "MassFlow", name, "")
 
 
 def _said(flow: float) -> str:

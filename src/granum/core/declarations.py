@@ -7,6 +7,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import inspect
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar, get_type_hints
@@ -114,7 +115,8 @@ def _declare(
     def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
         if not binder:
             binder.append(Binder.of(cls.card.key, cls.card.parameters))  # type: ignore[attr-defined]
-        given, origins = binder[0].resolved(args, kwargs)
+        with flags.collect() as of_inputs:
+            given, origins = binder[0].resolved(args, kwargs)
         if sort != "law":  # a bare number of a case file was typed, as that of a command is
             owner = _(" for {owner}").format(owner=cls.card.key)  # type: ignore[attr-defined]
             for p in cls.card.parameters:  # type: ignore[attr-defined]
@@ -122,6 +124,7 @@ def _declare(
         original(self, **binder[0].bind(args, given))
         if origins and sort == "lab test":
             object.__setattr__(self, "origins", tuple(origins.items()))
+            object.__setattr__(self, "notices", tuple(json.dumps(row) for row in describe(of_inputs)))
 
     type.__setattr__(cls, "card", _LazyCard(build))
     type.__setattr__(cls, "__init__", __init__)

@@ -10,6 +10,7 @@ from granum.core.i18n import _
 _MOST_TOLD = 6  # problems told at once
 _MOST_NAMES = 40  # names listed where none is like the one given
 _LONGEST_NAME = 100  # characters; what is longer is no misspelt name
+_TELLING = 4  # letters from which a word of a name stands for the name
 
 
 class GranumError(Exception):
@@ -67,9 +68,26 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
 
     >>> nearest("particle_diametre", ["particle_density", "particle_diameter"])
     'particle_diameter'
+
+    A name with a word more comes before another of the same shape.
+
+    >>> nearest("lactose", ["sucrose", "lactose monohydrate"])
+    'lactose monohydrate'
     """
-    found = get_close_matches(word, list(known), n=1, cutoff=0.55) if len(word) <= _LONGEST_NAME else []
-    return found[0] if found else None
+    if len(word) > _LONGEST_NAME:
+        return None
+    known = list(known)
+    whole = [name for name in known if len(word) >= _TELLING and _within(word, name)]
+    for cutoff in (0.8, 0.55):
+        found = get_close_matches(word, known, n=1, cutoff=cutoff)
+        if found or (whole and cutoff == 0.8):
+            return found[0] if found else min(whole, key=len)
+    return None
+
+
+def _within(word: str, name: str) -> bool:
+    """Whether a name of several words says this one, or more of them in this order."""
+    return f" {word.casefold()} " in f" {name.casefold()} "
 
 
 def unknown_name(

@@ -29,7 +29,7 @@ from granum.core.unit_names import (
     without_substances,
 )
 from granum.core.unit_table import counts_angles, rows
-from granum.core.written import apart, interval, mixed, read_number, thousands_or_decimals, tidy
+from granum.core.written import apart, duration, interval, mixed, read_number, thousands_or_decimals, tidy
 
 
 def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
@@ -170,6 +170,9 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
             name=name or kind.name,
             value=shown(text),
         )
+    parts = duration(text) if kind.unit == "s" else None
+    if parts is not None:
+        return parts
     try:
         if found is not None:
             number, unit = found

@@ -78,13 +78,43 @@ def apart(text: str) -> str:
     """The number of a text whose digits stand in threes apart, such as ``60 300`` or ``1,200,300``; empty
     where they do not.
 
-    It may be thousands or two values: where several values may stand only its writer knows.
+    It may be thousands or two values: where several values may stand only its writer knows. But no value
+    begins with a zero before other digits: ``10 000`` is ten thousand.
 
-    >>> apart("60 300 um"), apart("60 85 um")
-    ('60 300', '')
+    >>> apart("60 300 um"), apart("60 85 um"), apart("10 000 um")
+    ('60 300', '', '')
     """
     found = _APART_IN_THREES.match(tidy(text))
-    return found[1] if found else ""
+    return found[1] if found and not re.search(r"[ ,]0", found[1]) else ""
+
+
+_DURATION = re.compile(
+    r"(?:(?P<days>\d+)\s*(?:days?|d|jours?|j)\s*)?(?:(?P<hours>\d+)\s*(?:hours?|hr?|heures?)\s*)?"
+    r"(?:(?P<minutes>\d+)\s*(?:min(?:utes?)?)?\s*)?(?:(?P<seconds>\d+(?:[.,]\d+)?)\s*(?:s|sec)\s*)?"
+)
+_EACH = {"days": 86400.0, "hours": 3600.0, "minutes": 60.0, "seconds": 1.0}
+
+
+def duration(text: str) -> float | None:
+    """Seconds of a time said in several units, such as ``2 h 30 min`` or ``2h30``; None of any other text.
+
+    >>> (
+    ...     duration("2 h 30 min"),
+    ...     duration("2h30"),
+    ...     duration("1 day 4 h"),
+    ...     duration("30 min"),
+    ...     duration("30 5 s"),
+    ... )
+    (9000.0, 9000.0, 100800.0, None, None)
+    """
+    found = _DURATION.fullmatch(tidy(text).strip()) if len(text) <= LONGEST else None
+    parts = {name: value for name, value in found.groupdict().items() if value} if found else {}
+    if len(parts) < 2 or ("minutes" in parts and "hours" not in parts and "min" not in text):
+        return None  # "30 5 s" are two values
+    seconds = sum(float(value.replace(",", ".")) * _EACH[name] for name, value in parts.items())
+    # the minutes of two and a half hours are no more than an hour holds
+    within = all(float(parts.get(name, "0").replace(",", ".")) < 60.0 for name in ("minutes", "seconds"))
+    return seconds if within else None
 
 
 _THREE_BEHIND = re.compile(r"\s*\$?([+-]?[1-9]\d{0,2}),(\d{3})(?![\d.,eE])")

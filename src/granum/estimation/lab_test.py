@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import abc
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -42,6 +43,8 @@ class LabTest(eqx.Module):
         default=(), init=False, static=True, repr=False, kw_only=True
     )
     """Conditions that a stated ``fluid`` gave, each with what it says of itself."""
+    notices: tuple[str, ...] = eqx.field(default=(), init=False, static=True, repr=False, kw_only=True)
+    """What was flagged of a stated ``fluid``, such as a temperature outside its data, as JSON."""
 
     @classmethod
     def read(cls, path: Source, **conditions: Any) -> Self:
@@ -102,7 +105,13 @@ class LabTest(eqx.Module):
         found = fit(
             model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options
         )
-        return replace(found, defaults=self.defaults(), ranges=self.ranges(), origins=self.stated())
+        return replace(
+            found,
+            defaults=self.defaults(),
+            ranges=self.ranges(),
+            origins=self.stated(),
+            flags=[*map(json.loads, self.notices), *found.flags],
+        )
 
     def judged(self, found: Fit, trials: int) -> Fit:
         """The best of several models with its diagnostics (fit them with ``judged=False``)."""

@@ -17,7 +17,8 @@ from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
-from granum.core.units import format_number, show
+from granum.core.units import format_number, in_unit_of, show
+from granum.numerics import safe_divide
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
@@ -50,7 +51,8 @@ def feed(
     Parameters
     ----------
     mass_flow: solid and liquid together, divided by ``solids_mass_fraction``; or ``liquid_flow`` and
-        ``solid_flow``.
+        ``solid_flow``. All but the last may be a volume at the feed's temperature and pressure (m³/h, gpm,
+        cfm): of the slurry, of the liquid with what is dissolved in it, of the gas with its vapor.
     liquid, solid, gas: mass fractions by name; need not be given where there is one species.
     relative_humidity: of a gas, sets its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it
         where there are several.
@@ -83,10 +85,22 @@ def feed(
             )
         return found / found.sum()
 
-    solids, liquids = (
-        None if flow is None else quantity(flow, "MassFlow", n)
-        for n, flow in (("solid_flow", solid_flow), ("liquid_flow", liquid_flow))
-    )
+    def amount(value: Given, name: str) -> tuple[float, bool]:
+        """A flow, kg/s, or m³/s where it is given as a volume, and whether it is."""
+        volume = name != "solid_flow" and isinstance(value, str) and in_unit_of(value, "m^3/s")
+        return quantity(value, "VolumeFlow" if volume else "MassFlow", name), volume
+
+    warm = quantity(temperature, "Temperature", "temperature")
+
+    def per_volume(phase: str, given: Mapping[str, Given] | None) -> float:
+        """Density of a phase, kg/m³."""
+        return 1.0 / float(np.sum(shares(phase, given) / np.asarray(mixture.densities(phase, warm))))
+
+    solids = None if solid_flow is None else quantity(solid_flow, "MassFlow", "solid_flow")
+    liquids = None
+    if liquid_flow is not None:
+        liquids, volume = amount(liquid_flow, "liquid_flow")
+        liquids *= per_volume("liquids", liquid) if volume and liquids else 1.0
     if mass_flow is not None:
         if solids is not None or liquids is not None:
             raise InputError(
@@ -94,16 +108,19 @@ def feed(
                     where=where
                 )
             )
-        total = quantity(mass_flow, "MassFlow", "mass_flow")
+        total, volume = amount(mass_flow, "mass_flow")
         share = (
             0.0
             if solids_mass_fraction is None
             else quantity(solids_mass_fraction, "MassFraction", "solids_mass_fraction")
         )
+        if volume and total:
+            parts = ((share, "solids", solid), (1.0 - share, "liquids", liquid))
+            total /= sum(part / per_volume(phase, given) for part, phase, given in parts if part)
         solids, liquids = total * share, total * (1.0 - share)
     stream = empty(
         mixture,
-        quantity(temperature, "Temperature", "temperature"),
+        warm,
         quantity(pressure, "Pressure", "pressure"),
     )
     if liquids:
@@ -113,7 +130,7 @@ def feed(
         spread = by_class.reshape(by_class.shape + (1,) * len(mixture.axes)) * np.ones(mixture.solid_shape)
         stream = stream.replace(solid=jnp.asarray(spread / int(np.prod(mixture.solid_shape[2:]))))
     if gas_flow is not None:
-        flow = quantity(gas_flow, "MassFlow", "gas_flow")
+        flow, volume = amount(gas_flow, "gas_flow")
         if relative_humidity is None:
             stream = stream.replace(gas=jnp.asarray(flow * shares("gases", gas)))
         else:
@@ -124,6 +141,8 @@ def feed(
                 quantity(relative_humidity, "RelativeHumidity", "relative_humidity"),
                 where,
             )
+        if volume:
+            stream = stream.replace(gas=stream.gas * safe_divide(flow, stream.gas_volume_flow))
     if not sum(np.asarray(flows).sum() for flows in (stream.solid, stream.liquid, stream.gas)) > 0:
         raise InputError(
             _("{where}: nothing flows; give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(

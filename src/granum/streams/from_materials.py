@@ -120,7 +120,16 @@ def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[fl
 def _liquid(known: Library, name: str) -> Species:
     if name not in known.names("fluid"):
         there = (*known.names("fluid"), *known.names("solute"))
-        raise unknown_name(_("Liquid"), name, there, meant=known.called(name, "solute", "fluid"))
+        meant = known.called(name, "solute", "fluid")
+        solid = known.called(name, "solid") if meant is None else None
+        if solid is not None:
+            raise InputError(
+                _("Liquid '{name}' is a solid here: give it among the solids, as '{solid}'.").format(
+                    name=name, solid=solid
+                ),
+                name=name,
+            )
+        raise unknown_name(_("Liquid"), name, there, meant=meant)
     f = known.fluid(name)
     return Species(
         f.name,

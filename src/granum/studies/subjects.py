@@ -319,6 +319,8 @@ class FormulaSubject(Subject):
 
     thing: Any
     fixed: Mapping[str, Any]
+    of_fluid: tuple[flags.Record, ...] = field(default=(), repr=False, compare=False)
+    """What is flagged of the fluid that gave some of the fixed inputs: it holds of every case."""
 
     @functools.cached_property
     def parameters(self) -> dict[str, Parameter]:
@@ -338,13 +340,13 @@ class FormulaSubject(Subject):
             )
         known = thing.card.inputs
         where = _("for {owner}").format(owner=thing.card.key)
-        fixed = Binder.of(thing.card.key, tuple(known.values())).resolved((), fixed)[0]
+        with flags.collect() as of_fluid:
+            fixed = Binder.of(thing.card.key, tuple(known.values())).resolved((), fixed)[0]
         for name in fixed:
             if name not in known:
                 raise unknown_name(_("Input"), name, known, where)
-        return FormulaSubject(
-            thing, {n: convert(v, known[n], " " + where) for n, v in fixed.items()}, recipe=recipe
-        )
+        given = {n: convert(v, known[n], " " + where) for n, v in fixed.items()}
+        return FormulaSubject(thing, given, tuple(of_fluid), recipe=recipe)
 
     @property
     def title(self) -> str:
@@ -424,6 +426,7 @@ class FormulaSubject(Subject):
         for path, value in values.items():
             name, index = split_index(path)
             given[name] = value if index is None else jnp.asarray(given[name]).at[index].set(value)
+        flags.hand_on(list(self.of_fluid))
         made = self.thing.called(**given) if self.thing.card.sort == "law" else self.thing(**given)
         found = made._asdict() if hasattr(made, "_asdict") else {self.thing.card.outputs[0].name: made}
         defaults = {n: p.default for n, p in self.parameters.items() if not p.required}

@@ -289,6 +289,7 @@ class RecompressionEvaporator(_Single):
         there = vapor.enthalpy_flow + whole - condensate.enthalpy_flow
         share = jnp.clip(safe_divide(made.duty, there, 0.0), 0.0, 1.0)
         rest = 1.0 - share
+        bought = jnp.where(there > 0.0, jnp.maximum(made.duty - there, 0.0), made.duty)
         return (
             liquor,
             made,
@@ -297,7 +298,7 @@ class RecompressionEvaporator(_Single):
                 product,
                 vapor.part(liquid=rest, gas=rest),
                 condensate.part(liquid=share),
-                made.duty - share * there,
+                bought,
                 share * whole,
             ),
         )

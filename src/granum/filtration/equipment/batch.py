@@ -296,6 +296,7 @@ class SqueezingFilter(BatchFilter):
         return super().measured(inside, outlets, figures, feed, wash) | {
             "squeezed": self.void_fraction_packed / self.void_fraction,
             "reached": self.consolidation_ratio,
+            "cracks": jnp.zeros(()),  # the squeeze has closed the cake before gas enters
         }
 
     def drawn(

@@ -115,8 +115,9 @@ class CakeFilter(CakeMaker):
 
     The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power
     ``compressibility`` of the pressure drop. Gas drains it only above its threshold pressure, and never below
-    what Brooks and Corey's capillarity holds. With a ``transportable_moisture_limit`` the moisture of the
-    cake is checked against it.
+    what Brooks and Corey's capillarity holds. What is compressible shrinks as it is drained, and may crack,
+    unless it was squeezed before: a check says so beyond a compressibility of 0.5, our own number. With a
+    ``transportable_moisture_limit`` the moisture of the cake is checked against it.
     """
 
     area: Area
@@ -145,6 +146,15 @@ class CakeFilter(CakeMaker):
             math.inf,
             "dimensionless",
             "wakeman2005",
+        ),
+        # what draws gas and cake together below the entry pressure is in the source, the number is our own
+        "cracks": Limit(
+            "compressibility of a cake drained but not squeezed: beyond, it shrinks and cracks",
+            0.0,
+            0.5,
+            "dimensionless",
+            "strubel, abstract only: the number is our own",
+            quiet=True,
         ),
         "flowing": Limit(
             "cake moisture, wet basis", 0.0, "transportable_moisture_limit", "kg/kg", "imsbc2008, app. 2"
@@ -351,6 +361,7 @@ class CakeFilter(CakeMaker):
         }
         enters = self.over_threshold(feed)
         found["entered"] = jnp.where(inside.plan.deliquoring_time > 0.0, enters, jnp.maximum(enters, 1.0))
+        found["cracks"] = jnp.where(inside.plan.deliquoring_time > 0.0, self.compressibility, 0.0)
         if self.transportable_moisture_limit is not None:
             moisture = outlets.cake.moisture_dry_basis
             found["flowing"] = moisture / (1.0 + moisture)

@@ -228,7 +228,8 @@ class Ultrafiltration(_Plant):
     Solids are held back by size, dissolved matter by that of a compact molecule of its molar mass, which
     polarization lessens. Flux is that of the pressure less the osmotic pressure at the wall, or that at which
     what is held back gels there (``concentration_gel``), whichever is less. The transfer coefficient is one
-    for all solutes, and fouling a resistance that is given. Limits recalled, not opened.
+    for all solutes, and fouling a resistance that is given. The osmotic pressure among the figures is that of
+    the last retentate. Limits recalled, not opened.
     """
 
     pore_diameter: Length
@@ -354,8 +355,8 @@ class ReverseOsmosis(_Plant):
 
     The osmotic pressure follows from the water activity of the library's solutes, each as in its own solution
     with all the water; other solutes count as ideal. One permeability holds for all solutes. Each element is
-    mixed on its feed side; the pressure lost along it is left out. Solids stay with the retentate. Limits
-    recalled, not opened.
+    mixed on its feed side; the pressure lost along it is left out. Solids stay with the retentate. The
+    osmotic pressure among the figures is that of the last retentate. Limits recalled, not opened.
     """
 
     membrane_permeance: Permeance
