@@ -70,6 +70,18 @@ class Page:
         self.browser.get(f"{self.address}/?lang={language}#/{place}")
         self.settle()
 
+    def visit(self, place: str) -> None:
+        """Another place of the same visit: what the browser has loaded and keeps is there."""
+        self.browser.execute_script("location.hash = arguments[0]", f"#/{place}")
+        self.settle()
+
+    def turn(self, width: int, theme: str) -> None:
+        """The same page in a window of another width, in light or dark."""
+        resize(self, width)
+        if self.browser.execute_script("return document.documentElement.dataset.theme") != theme:
+            self.one("header .tools button:last-child").click()
+        self.settle()
+
     def settle(self) -> None:
         """Wait until the page has its heading and nothing on it is busy, also after what that sets off."""
         start = time.monotonic()
@@ -152,9 +164,10 @@ class Page:
             "return [...document.querySelectorAll('[data-output]')].some((e) => !e.closest('.stale'))"
         )
 
-    def check(self, refused: bool = False) -> None:
+    def check(self, refused: bool = False, whole: bool = False) -> None:
         """No word on the console (but for refusals where they are wanted), nothing wider than the page, no
-        complaint of axe.
+        complaint of axe. The list of all cards and the inside of charts, which are the same wherever they
+        stand and three quarters of the work, are looked at where the page is looked at as a ``whole``.
         """
         complaints = [
             e["message"] for e in self.browser.get_log("browser") if e["level"] in ("SEVERE", "WARNING")
@@ -168,8 +181,10 @@ class Page:
         self.browser.execute_script(Path(axe_selenium_python.axe._DEFAULT_SCRIPT).read_text(encoding="utf-8"))
         found = self.browser.execute_async_script(
             # what passes is not collected: twice as quick, and the same is found
-            "axe.run({rules: {region: {enabled: false}}, resultTypes: ['violations'], preload: false})"
-            ".then((r) => arguments[0](r.violations))"
+            "axe.run(arguments[0] ? document : {exclude: [['.find .scroll'], ['.main-svg']]}, "
+            "{rules: {region: {enabled: false}}, resultTypes: ['violations'], preload: false})"
+            ".then((r) => arguments[1](r.violations))",
+            whole,
         )
         assert not found, [(v["id"], [n["html"][:160] for n in v["nodes"][:3]]) for v in found]
 
