@@ -21,6 +21,7 @@ from tests.app.browsing import Page, chromium
 from granum.app import jobs
 from granum.app.server import create_app
 from granum.app.serving import configured
+from granum.core import kept
 
 
 @contextmanager
@@ -47,7 +48,7 @@ def _workers_share_programs() -> Iterator[None]:
     """What one worker process has traced, those started after it find, as in a server of one's own."""
     folder = Path(tempfile.gettempdir()) / "granum-traced"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(jobs, "kept", SimpleNamespace(folder=lambda: folder))
+        patch.setattr(jobs, "kept", SimpleNamespace(folder=lambda: kept.folder() or folder))
         yield
 
 

@@ -56,6 +56,14 @@ def test_a_value_is_shown_in_the_chosen_unit_and_keeps_its_digits(page: Page) ->
     page.until(lambda: page.text(VALUE).endswith("m/h"))
 
 
+def test_numbers_under_the_equation_are_as_they_were_typed(client: httpx.Client) -> None:
+    typed = SPHERE | {"particle_density": "2.63 g/cm3", "particle_diameter": "0.085 mm"}
+    rows = client.post(f"/api/calc/{STOKES}", json=typed).json()["inputs_shown"]
+    assert [row["text"] for row in rows[:2]] == ["0.085 mm", "2.63 g/cm³"]
+    sheet = client.post(f"/api/sheet/{STOKES}", json={"inputs": typed}).text
+    assert "2.63 g/cm³" in sheet
+
+
 def test_the_chart_follows_the_inputs_and_the_choice_of_one(page: Page) -> None:
     page.open(PLACE)
     page.until(lambda: page.all(".sensitivity .main-svg"))

@@ -11,6 +11,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -283,6 +284,13 @@ def _known(unit: str, kind: Kind) -> bool:
 def _alike(one: str, other: str, kind: Kind) -> bool:
     """Whether two units read the same number as the same quantity."""
     return all(math.isclose(to_si(x, one, kind), to_si(x, other, kind), rel_tol=1e-12) for x in (0.0, 1.0))
+
+
+@cache
+def opening(key: str) -> dict[str, str]:
+    """The values with which the page of a card opens."""
+    shown = {p["name"]: p["example"] for p in card_form(key)["parameters"] if p.get("example")}
+    return {name: f"{one['number']} {one['unit']}".strip() for name, one in shown.items()}
 
 
 def as_typed(card: Card, given: Mapping[str, Any]) -> dict[str, str]:
