@@ -70,13 +70,19 @@ def told_of(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
         return size_told(key, made, scale)
 
 
-def palette() -> list[dict[str, str]]:
-    """Every piece of equipment, with its symbol."""
+def palette() -> list[dict[str, Any]]:
+    """Every piece of equipment, with its symbol and whether it needs more than one stream."""
     return _palette(current_language())
 
 
+def _joins(key: str) -> bool:
+    """Whether something besides the first stream must come from elsewhere; gas for a dryer comes with it."""
+    thing = registry.find(key)
+    return bool(set((thing.inlet_names() or ())[1:]) - {*thing.optional_inlets(), "gas"})
+
+
 @cache
-def _palette(_language: str) -> list[dict[str, str]]:
+def _palette(_language: str) -> list[dict[str, Any]]:
     return [
         {
             "model": c.key,
@@ -85,6 +91,7 @@ def _palette(_language: str) -> list[dict[str, str]]:
             "summary": summary_words(c.summary),
             "other_names": f"{c.english_title} {c.french_title}",
             "symbol": symbol_of(c.key),
+            "joins": _joins(c.key),
         }
         for c in entries().values()
         if c.sort == "equipment"
