@@ -19,7 +19,10 @@ CHARTS = [
     if row["sort"] == "chart"
 ]
 
-ALSO_PICTURES = ("humid_gas.psychrometric_chart", "particles.drag_chart")  # the browser takes a moment to paint one
+ALSO_PICTURES = (
+    "humid_gas.psychrometric_chart",
+    "particles.drag_chart",
+)  # the browser takes a moment to paint one
 
 
 def asked(page: Page) -> list[str]:

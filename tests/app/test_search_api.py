@@ -5,7 +5,6 @@ possible.
 from __future__ import annotations
 
 import re
-
 from collections.abc import Iterator
 from typing import Any
 

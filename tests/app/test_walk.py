@@ -27,7 +27,7 @@ class Album:
             folder.mkdir(parents=True, exist_ok=True)
 
     def take(self, name: str, refused: bool = False) -> None:
-        """The page as it stands, which must be sound and in French; its picture, where somebody wants them."""
+        """The page as it stands, sound and in French; its picture, where somebody wants them."""
         self.page.settle()
         self.page.check(refused)
         if self.folder is None:

@@ -17,8 +17,8 @@ from granum.app import exercises, studies
 from granum.app.beside import described_curve, sheet, solved_input
 from granum.app.case_forms import read_line
 from granum.app.exercises import answers as worked_answers
-from granum.app.forms import opening
 from granum.app.exercises.marking import marked
+from granum.app.forms import opening
 from granum.app.spread import spread
 from granum.app.telling import Tell
 from granum.app.texts import described, plain_data

@@ -37,7 +37,7 @@ from granum.cases.starting import (
 )
 from granum.cases.wiring import bypass, connect, disconnect, lead, remove, rename, replace
 from granum.core import registry
-from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.stream_figures import FIGURES, PHASES, told_of
 from granum.flowsheet.symbols import word_of
@@ -327,12 +327,17 @@ def _first_inlet(ports: tuple[str, ...] | None, origin: str) -> str:
     return ports[0] if ports else origin.replace(".", "_")
 
 
+def _whole(raw: Mapping[str, Any]) -> float:
+    """Solid and liquid that all feeds of a line bring, kg/s."""
+    return entering(raw, list(table_of(raw, "feeds")))
+
+
 def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
     """The case with a feed of hot gas to a dryer, of ambient gas to one that heats it itself; air and the
     vapor of the first liquid are added to substances that have none.
     """
     case = _with_vapor(case)
-    flow = GAS_PER_FEED * (entering(found.raw, list(table_of(found.raw, "feeds"))) or 1000.0 / 3600.0)
+    flow = GAS_PER_FEED * (_whole(found.raw) or 1000.0 / 3600.0)
     moist = table_of(table_of(found.raw, "feeds"), origin)
     if moist:
         flow = max(flow, GAS_PER_MOISTURE * flow_of(moist, "liquid_flow"))
@@ -365,7 +370,7 @@ def add_wash(case: str, unit: str) -> str:
         case,
         name,
         f"{unit}.wash",
-        wash_liquor(table_of(found.raw, "mixture"), 0.1 * (_entering(table_of(found.raw, "feeds")) or 0.3)),
+        wash_liquor(table_of(found.raw, "mixture"), 0.1 * (_whole(found.raw) or 0.3)),
     )
 
 

@@ -73,7 +73,9 @@ def scale_of(model: str, found: Outline, origin: str = "", brings: Mapping[str, 
     elif origin in feeds:
         here = measured(found.raw, [origin], True)
     else:
-        return _scale(measured(found.raw, list(feeds)), measured(example, list(table_of(example, "feeds"))), False)
+        return _scale(
+            measured(found.raw, list(feeds)), measured(example, list(table_of(example, "feeds"))), False
+        )
     return _scale(here, measured(example, [first], True), True)
 
 
@@ -111,7 +113,9 @@ def size_told(model: str, made: Mapping[str, Any], scale: Scale) -> str:
     if not sizes:
         return ""
     flow = Parameter("mass_flow", KINDS["MassFlow"])
-    values = [f"{p.label} = {value_text(convert(sizes[p.name], p), p)}" for p in _sizes(model) if p.name in sizes]
+    values = [
+        f"{p.label} = {value_text(convert(sizes[p.name], p), p)}" for p in _sizes(model) if p.name in sizes
+    ]
     return _("Sized for {flow}, in proportion to its example: {values}.").format(
         flow=value_text(scale.flow, flow), values=", ".join(values)
     )
