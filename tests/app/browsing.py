@@ -164,10 +164,9 @@ class Page:
             "return [...document.querySelectorAll('[data-output]')].some((e) => !e.closest('.stale'))"
         )
 
-    def check(self, refused: bool = False, whole: bool = False) -> None:
+    def check(self, refused: bool = False) -> None:
         """No word on the console (but for refusals where they are wanted), nothing wider than the page, no
-        complaint of axe. The list of all cards and the inside of charts, which are the same wherever they
-        stand and three quarters of the work, are looked at where the page is looked at as a ``whole``.
+        complaint of axe.
         """
         complaints = [
             e["message"] for e in self.browser.get_log("browser") if e["level"] in ("SEVERE", "WARNING")
@@ -181,10 +180,8 @@ class Page:
         self.browser.execute_script(Path(axe_selenium_python.axe._DEFAULT_SCRIPT).read_text(encoding="utf-8"))
         found = self.browser.execute_async_script(
             # what passes is not collected: twice as quick, and the same is found
-            "axe.run(arguments[0] ? document : {exclude: [['.find .scroll'], ['.main-svg']]}, "
-            "{rules: {region: {enabled: false}}, resultTypes: ['violations'], preload: false})"
-            ".then((r) => arguments[1](r.violations))",
-            whole,
+            "axe.run({rules: {region: {enabled: false}}, resultTypes: ['violations'], preload: false})"
+            ".then((r) => arguments[0](r.violations))"
         )
         assert not found, [(v["id"], [n["html"][:160] for n in v["nodes"][:3]]) for v in found]
 

@@ -5,23 +5,18 @@ app.
 from __future__ import annotations
 
 import socket
-import tempfile
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
 import uvicorn
 from tests.app.browsing import Page, chromium
 
-from granum.app import jobs
 from granum.app.server import create_app
 from granum.app.serving import configured
-from granum.core import kept
 
 
 @contextmanager
@@ -41,15 +36,6 @@ def running(app: Any, **changes: Any) -> Iterator[str]:
         server.should_exit = True
         thread.join(timeout=10)
         listener.close()
-
-
-@pytest.fixture(scope="session", autouse=True)
-def _workers_share_programs() -> Iterator[None]:
-    """What one worker process has traced, those started after it find, as in a server of one's own."""
-    folder = Path(tempfile.gettempdir()) / "granum-traced"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(jobs, "kept", SimpleNamespace(folder=lambda: kept.folder() or folder))
-        yield
 
 
 @pytest.fixture(scope="session")

@@ -98,7 +98,7 @@ def test_states_of_humid_gas_are_a_table(page: Page, language: str, add: str) ->
     page.all(".states tbody button")[0].click()
     page.until(lambda: len(page.all(".states tbody tr")) == 2)
     page.settle()
-    page.check(whole=True)
+    page.check()
 
 
 def test_the_table_of_a_chart_is_one_of_the_page(page: Page) -> None:

@@ -39,7 +39,7 @@ def test_a_page_is_clean_wide_and_narrow_light_and_dark(page: Page, place: str, 
         page.turn(width, theme)
         assert page.browser.execute_script("return document.documentElement.lang") == language
         assert page.all("header nav a")
-        page.check(whole=True)
+        page.check()
 
 
 @pytest.mark.parametrize(
