@@ -43,8 +43,15 @@ export function Palette({ origin, pick, close }) {
   const last = named.length ? Math.max(...named.map(place)) : MOST;
   const found = (list || [])
     .filter((e) => has(e) || (place(e) < last && place(e) < ranked.length))
-    // what one stream is enough for comes before what needs another one first
-    .toSorted((one, other) => far(one) - far(other) || one.joins - other.joins || place(one) - place(other));
+    // what one stream is enough for comes before what needs another one first; of titles with all the words the
+    // shortest is the most general
+    .toSorted(
+      (one, other) =>
+        far(one) - far(other) ||
+        one.joins - other.joins ||
+        (far(one) ? 0 : one.title.length - other.title.length) ||
+        place(one) - place(other),
+    );
   useEffect(() => {
     // pressed before the search has answered, Enter takes what it finds
     if (entered && entered === word && found.length) pick(found[0].model);
