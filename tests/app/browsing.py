@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import axe_selenium_python.axe
 import pytest
 from docs import headless
 from selenium import webdriver
-from selenium.common.exceptions import StaleElementReferenceException, TimeoutException
+from selenium.common.exceptions import JavascriptException, StaleElementReferenceException, TimeoutException
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
@@ -21,6 +22,14 @@ PATIENCE = 240.0  # seconds: a first calculation compiles, and continuous integr
 # once a night
 MOSTLY_FRENCH = [pytest.param("en", marks=pytest.mark.long), "fr"]
 SCRIPT_PATIENCE = 60.0
+SETTLED = """
+    const done = arguments[0];
+    const ready = () => document.querySelector('h1') && !document.querySelector('[aria-busy=true]');
+    const frames = (next) => requestAnimationFrame(() => requestAnimationFrame(next));
+    const look = () => ready() ? frames(() => setTimeout(again, 30)) : setTimeout(look, 15);
+    const again = () => (ready() ? done() : look()); // what an answer sets off has begun by then
+    look();
+"""
 
 
 @contextmanager
@@ -61,17 +70,32 @@ class Page:
         self.browser.get(f"{self.address}/?lang={language}#/{place}")
         self.settle()
 
+    def visit(self, place: str) -> None:
+        """Another place of the same visit: what the browser has loaded and keeps is there."""
+        self.browser.execute_script("location.hash = arguments[0]", f"#/{place}")
+        self.settle()
+
+    def turn(self, width: int, theme: str) -> None:
+        """The same page in a window of another width, in light or dark."""
+        resize(self, width)
+        if self.browser.execute_script("return document.documentElement.dataset.theme") != theme:
+            self.one("header .tools button:last-child").click()
+        self.settle()
+
     def settle(self) -> None:
-        ready = "return Boolean(document.querySelector('h1')) && !document.querySelector('[aria-busy=true]')"
-        self.until(lambda: self.browser.execute_script(ready))
-        drawn = "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(arguments[0], 30)))"
-        self.browser.execute_async_script(drawn)  # what the answer sets off has begun by then
-        self.until(lambda: self.browser.execute_script(ready))
+        """Wait until the page has its heading and nothing on it is busy, also after what that sets off."""
+        start = time.monotonic()
+        while time.monotonic() - start < PATIENCE:
+            # a page that is left meanwhile, or a calculation longer than a script may take
+            with suppress(JavascriptException, TimeoutException):
+                self.browser.execute_async_script(SETTLED)
+                return
+        raise TimeoutException("the page does not come to rest")
 
     def until(self, condition: Callable[[], Any]) -> Any:
         """What a condition gives once it holds; a page drawn anew between two looks is looked at again."""
         return WebDriverWait(
-            self.browser, PATIENCE, poll_frequency=0.1, ignored_exceptions=[StaleElementReferenceException]
+            self.browser, PATIENCE, poll_frequency=0.03, ignored_exceptions=[StaleElementReferenceException]
         ).until(lambda _browser: condition())
 
     def one(self, selector: str) -> Any:

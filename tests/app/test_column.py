@@ -32,14 +32,15 @@ def client(address: str) -> Iterator[httpx.Client]:
 
 
 @pytest.mark.parametrize("language", MOSTLY_FRENCH)
-@pytest.mark.parametrize("width", [390, 1100, 1440, 1920])
-def test_the_column_stands_at_every_width(page: Page, language: str, width: int) -> None:
-    page.open(PLACE, language, width, "dark" if width == 1100 else "light")
-    page.until(lambda: page.all(".sensitivity .main-svg"))
-    told = page.text("[data-beside=reynolds]")
-    assert ("above 0 … 0.2" if language == "en" else "au-dessus de 0 … 0,2") in told
-    assert page.one("[data-numbers] math")
-    page.check()
+def test_the_column_stands_at_every_width(page: Page, language: str) -> None:
+    page.open(PLACE, language, 390)
+    for width in (390, 1100, 1440, 1920):
+        page.turn(width, "dark" if width == 1100 else "light")
+        page.until(lambda: page.all(".sensitivity .main-svg"))
+        told = page.text("[data-beside=reynolds]")
+        assert ("above 0 … 0.2" if language == "en" else "au-dessus de 0 … 0,2") in told
+        assert page.one("[data-numbers] math")
+        page.check()
 
 
 def test_a_value_is_shown_in_the_chosen_unit_and_keeps_its_digits(page: Page) -> None:
@@ -53,6 +54,14 @@ def test_a_value_is_shown_in_the_chosen_unit_and_keeps_its_digits(page: Page) ->
     page.type(DIAMETER, "90")
     page.until(page.fresh)
     page.until(lambda: page.text(VALUE).endswith("m/h"))
+
+
+def test_numbers_under_the_equation_are_as_they_were_typed(client: httpx.Client) -> None:
+    typed = SPHERE | {"particle_density": "2.63 g/cm3", "particle_diameter": "0.085 mm"}
+    rows = client.post(f"/api/calc/{STOKES}", json=typed).json()["inputs_shown"]
+    assert [row["text"] for row in rows[:2]] == ["0.085 mm", "2.63 g/cm³"]
+    sheet = client.post(f"/api/sheet/{STOKES}", json={"inputs": typed}).text
+    assert "2.63 g/cm³" in sheet
 
 
 def test_the_chart_follows_the_inputs_and_the_choice_of_one(page: Page) -> None:

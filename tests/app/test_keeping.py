@@ -76,6 +76,9 @@ def test_a_study_goes_on_while_another_page_is_looked_at(page: Page) -> None:
     page.button(RUN["en"]).click()
     page.browser.execute_script("location.hash = '#/exercises'")
     page.says("[data-elsewhere]", "study")
+    page.visit("studies")  # opened bare, it is where the study runs
+    page.until(lambda: "grinding-circuit" in page.browser.current_url)
+    page.visit("exercises")
     page.reads("[data-elsewhere]", "A study is ready")
     page.check()
     page.one("[data-elsewhere]").click()

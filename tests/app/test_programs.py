@@ -25,9 +25,12 @@ def answered(serve: Any, monkeypatch: pytest.MonkeyPatch, folder: Path) -> dict[
     try:
         with serve(create_app()) as address:
             answer = httpx.post(f"{address}/api/run", json={"case": CASE}, timeout=300.0)
-        until = time.monotonic() + 120.0
-        while not any(folder.glob(f"*{kept.ENDING}")) and time.monotonic() < until:
-            time.sleep(0.2)
+        until, written = time.monotonic() + 120.0, 0
+        while time.monotonic() < until:  # what it warmed up with is written first, then what it was asked
+            time.sleep(1.0)
+            before, written = written, len(list(folder.glob(f"*{kept.ENDING}")))
+            if written and written == before:
+                break
     finally:
         crew.close()
     assert answer.status_code == 200, answer.text

@@ -4,6 +4,7 @@ possible.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -142,6 +143,13 @@ def test_other_answers_are_compressed_for_those_who_accept_it(client: Any) -> No
     script = client.get("/strings.fr.js", headers={"accept-encoding": "gzip"})
     assert script.headers["content-encoding"] == "gzip"
     assert script.headers["cache-control"] == "no-cache"  # asked about anew: one of each version would not do
+    address = re.search(r'src="(files/\w+/app\.js)"', client.get("/").text)
+    assert address is not None
+    assert "immutable" in client.get(f"/{address[1]}").headers["cache-control"]  # never of another version
+    other = client.get("/files/before/app.js")
+    assert (other.status_code, other.headers["cache-control"]) == (200, "no-cache")
+    assert client.get("/files/before/../../server.py").status_code == 404
+    assert client.get("/files/before/%2e%2e/server.py").status_code == 404
     known = client.get("/strings.fr.js", headers={"if-none-match": script.headers["etag"]})
     assert known.status_code == 304
 

@@ -14,7 +14,10 @@ import pytest
 
 from granum.cases import building as b
 from granum.cases import read_text
+from granum.cases.alone import tables
 from granum.cases.outline import identifier, outline
+from granum.cases.reading import quantity
+from granum.cases.scaling import POWERS, scale_of, scaled, size_told
 from granum.cases.sections import sections
 from granum.core import registry
 from granum.core.errors import CaseError, GranumError, InputError
@@ -404,3 +407,27 @@ def test_a_solid_with_the_name_of_what_is_dissolved_is_told_its_crystals() -> No
     text = b.new_line("Salt", ["water"], ["quartz"], ["water"])
     with pytest.raises(InputError, match="'sodium sulfate decahydrate', 'sodium sulfate anhydrous'"):
         b.choose_substances(text, ["water", "sodium sulfate"], ["sodium sulfate"], ["water"])
+
+
+def test_what_is_put_on_a_stream_is_sized_for_it() -> None:
+    """The example of a thickener is its measure: ten times as much need ten times its area, within the
+    two digits that are written.
+    """
+    text = b.begin("Mud", "suspension")
+    alone = tables("settling.thickener")
+    own = sum(quantity(alone["feeds"]["feed"][w], "MassFlow", w, "") for w in ("solid_flow", "liquid_flow"))
+    area = quantity(alone["units"]["thickener"]["area"], "Area", "area", "")
+    brings = {"mass_flow": f"{10 * own} kg/s"}
+    text = b.add_unit(text, "settling.thickener", origin="suspension", brings=brings)
+    made = tomllib.loads(text)["units"]["thickener"]["area"]
+    assert quantity(made, "Area", "area", "") == pytest.approx(10 * area, rel=0.05)
+    scale = scale_of("settling.thickener", outline(text), "suspension", brings)
+    assert size_told("settling.thickener", {"area": f"{area} m^2"}, scale).startswith("Sized for ")
+    assert size_told("settling.thickener", {"area": f"{area} m^2"}, scale._replace(times=1.0)) == ""
+    cyclones = {"diameter": "0.3 m", "parallel_number": 1}
+    assert scaled("cyclones.hydrocyclone", cyclones, scale._replace(times=2.3)) == {"parallel_number": 3}
+
+
+@pytest.mark.parametrize("name", sorted(POWERS))
+def test_every_size_that_grows_is_one_of_some_equipment(name: str) -> None:
+    assert any(name in {p.name for p in registry.find(key).card.parameters} for key in EQUIPMENT)

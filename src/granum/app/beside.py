@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from granum.app.forms import typed
+from granum.app.forms import as_typed, typed
 from granum.app.machine_curves import Machine
 from granum.app.spread import curves
 from granum.app.telling import Tell
@@ -113,7 +113,7 @@ def sheet(thing: Any, asked: Mapping[str, Any]) -> str:
     within = {name: (i.text, i.how) for name, i in intervals(thing, result, spreads).items()}
     link = str(asked.get("link", ""))
     safe = link if link.startswith(("http://", "https://")) else ""
-    stated = {name: s.text for name, s in spreads.items()}
+    stated = as_typed(thing.card, given) | {name: s.text for name, s in spreads.items()}
     return calculation_sheet(thing, result, found=found, units=units, within=within, stated=stated, link=safe)
 
 

@@ -12,6 +12,11 @@ from typing import Any
 from granum.app.own_substances import asked_of_substances
 from granum.app.wording import summary_words
 from granum.cases import building, describing
+from granum.cases.outline import outline, table_of
+from granum.cases.reading import knowing_own, parsed
+from granum.cases.scaling import scale_of, size_told
+from granum.cases.starting import starting_values
+from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, current_language
 from granum.core.index import entries
@@ -53,13 +58,31 @@ def built(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
     return function(**words)
 
 
-def palette() -> list[dict[str, str]]:
-    """Every piece of equipment, with its symbol."""
+def told_of(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
+    """What is to be said about an operation that was done: for which flow a new piece was sized."""
+    if operation != "add_unit" or arguments.get("values"):
+        return ""
+    raw = parsed(case, "case")
+    key = registry.find(arguments["model"]).card.key
+    with knowing_own(raw):
+        made = starting_values(key, table_of(raw, "mixture"))
+        scale = scale_of(key, outline(case), arguments.get("origin", ""), arguments.get("brings"))
+        return size_told(key, made, scale)
+
+
+def palette() -> list[dict[str, Any]]:
+    """Every piece of equipment, with its symbol and whether it needs more than one stream."""
     return _palette(current_language())
 
 
+def _joins(key: str) -> bool:
+    """Whether something besides the first stream must come from elsewhere; gas for a dryer comes with it."""
+    thing = registry.find(key)
+    return bool(set((thing.inlet_names() or ())[1:]) - {*thing.optional_inlets(), "gas"})
+
+
 @cache
-def _palette(_language: str) -> list[dict[str, str]]:
+def _palette(_language: str) -> list[dict[str, Any]]:
     return [
         {
             "model": c.key,
@@ -68,6 +91,7 @@ def _palette(_language: str) -> list[dict[str, str]]:
             "summary": summary_words(c.summary),
             "other_names": f"{c.english_title} {c.french_title}",
             "symbol": symbol_of(c.key),
+            "joins": _joins(c.key),
         }
         for c in entries().values()
         if c.sort == "equipment"

@@ -11,6 +11,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -108,7 +109,8 @@ def _field(p: Parameter) -> dict[str, Any]:
 def _units_of(kind: Kind, rows: list[dict[str, str]]) -> list[dict[str, str]]:
     """Units to choose from, customary ones first when they are wanted."""
     wanted = [{"unit": u, "label": pretty_unit(u)} for u in field_units(kind)]
-    return wanted + [u for u in rows if same_dimension(u["unit"], kind) and u not in wanted]
+    fitting = wanted + [u for u in rows if same_dimension(u["unit"], kind)]
+    return list({u["label"]: u for u in reversed(fitting)}.values())[::-1]  # K is there once
 
 
 def _unit_of(
@@ -282,6 +284,26 @@ def _known(unit: str, kind: Kind) -> bool:
 def _alike(one: str, other: str, kind: Kind) -> bool:
     """Whether two units read the same number as the same quantity."""
     return all(math.isclose(to_si(x, one, kind), to_si(x, other, kind), rel_tol=1e-12) for x in (0.0, 1.0))
+
+
+@cache
+def opening(key: str) -> dict[str, str]:
+    """The values with which the page of a card opens."""
+    shown = {p["name"]: p["example"] for p in card_form(key)["parameters"] if p.get("example")}
+    return {name: f"{one['number']} {one['unit']}".strip() for name, one in shown.items()}
+
+
+def as_typed(card: Card, given: Mapping[str, Any]) -> dict[str, str]:
+    """The single numbers of some inputs in the units in which they were typed."""
+    told = {}
+    for p in card.parameters:
+        text = given.get(p.name)
+        found = read_number(text) if isinstance(text, str) and p.kind and not p.series else None
+        if p.kind and found is not None and found[1] and _known(found[1], p.kind):
+            number, unit = found
+            unit = next((u for u in p.units if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
+            told[p.name] = f"{format_number(number, 9)} {pretty_unit(unit)}".strip()
+    return told
 
 
 def _listed(values: np.ndarray, unit: str, kind: Kind) -> str:

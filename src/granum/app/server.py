@@ -15,18 +15,18 @@ import tomli
 from fastapi import Body, FastAPI, File, Form, Request, UploadFile
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse, Response
-from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 
 import granum
 from granum.app import exercises
 from granum.app.alone_forms import alone_form
-from granum.app.building import built, palette, substances
+from granum.app.building import built, palette, substances, told_of
 from granum.app.case_forms import edited, line_form
 from granum.app.finding import SHOWN, found
 from granum.app.forms import card_form, read_entry
 from granum.app.jobs import Broken, GivenUp, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
+from granum.app.page_files import STATIC, serve_page
 from granum.app.reading import as_html
 from granum.app.sending import Shorter, kept, lasting
 from granum.app.shipped import domain_of_line, examples, examples_folder, title_of
@@ -41,7 +41,6 @@ from granum.core.index import Entry, entries
 from granum.core.search import search
 from granum.core.units import unit_system
 
-STATIC = Path(str(files("granum") / "app" / "static"))
 Inputs = Annotated[dict[str, Any], Body()]
 Case = Annotated[str, Body(embed=True)]
 Place = Annotated[str, Body(embed=True)]
@@ -81,7 +80,7 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     _studies(app, workspace)
     _case_forms(app, quick, workspace)
     _files(app, quick, workspace)
-    app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
+    serve_page(app)
     return app
 
 
@@ -388,8 +387,13 @@ def _case_forms(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
         arguments: Annotated[dict[str, Any], Body(embed=True)],
         case: Case = "",
     ) -> Response:
-        """The case file after an operation of ``granum.cases.building``."""
-        return Answer({"case": await quick.run(lambda: built(operation, case, arguments), request)})
+        """The case file after an operation of ``granum.cases.building``, and what is to be said about it."""
+
+        def done() -> dict[str, str]:
+            made = built(operation, case, arguments)
+            return {"case": made, "told": told_of(operation, case, arguments)}
+
+        return Answer(await quick.run(done, request))
 
     @app.get("/api/palette")
     async def equipment() -> Response:

@@ -11,22 +11,24 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+import tomli
 
 from granum.app import exercises, studies
 from granum.app.beside import described_curve, sheet, solved_input
 from granum.app.case_forms import read_line
 from granum.app.exercises import answers as worked_answers
 from granum.app.exercises.marking import marked
+from granum.app.forms import opening
 from granum.app.spread import spread
 from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
 from granum.cases.alone import case_text
-from granum.core import registry
+from granum.core import kept, registry
 from granum.core.cards import Card
 from granum.core.conversion import Binder
 from granum.core.documents import table_in
-from granum.core.errors import InputError
+from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _, current_language
 from granum.core.units import format_number, pretty_unit
 from granum.flowsheet.watching import Watch
@@ -144,7 +146,13 @@ def sensitivity(payload: dict[str, Any], tell: Tell) -> bytes:
     """The chart of one result over one input, with the choice of both; and what other laws give where that
     is wanted.
     """
-    return packed(described_curve(_valued_or_machine(payload["key"]), payload, tell))
+
+    def drawn() -> bytes:
+        return packed(described_curve(_valued_or_machine(payload["key"]), payload, tell))
+
+    if payload.get("case") and _is_opening(payload["case"]):
+        return _once(("sensitivity", json.dumps(payload, sort_keys=True)), drawn)
+    return drawn()
 
 
 def figure(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -162,7 +170,6 @@ def chapter_figure(payload: dict[str, Any], tell: Tell) -> bytes:
     """A figure of a chapter of the handbook, in the language of the chapter."""
     from granum.app.chapters import chapter_figure as drawn  # draws with many domains
     from granum.app.shipped import written
-    from granum.core import kept
 
     asked = payload["domain"], payload["name"], payload["code"]
     once = kept.Named(("figure of a chapter", asked, written()))
@@ -193,8 +200,24 @@ def calculation(payload: dict[str, Any], _tell: Tell) -> bytes:
 def chart(payload: dict[str, Any], tell: Tell) -> bytes:
     """Draw a chart: Plotly JSON."""
     thing = evaluable(payload["key"], ("chart",))
-    tell(0.2, _("drawing"))
-    return thing(**inputs_for(thing.card, payload["inputs"])).to_json().encode()
+    inputs = inputs_for(thing.card, payload["inputs"])
+
+    def drawn() -> bytes:
+        tell(0.2, _("drawing"))
+        return thing(**inputs).to_json().encode()
+
+    # the one with which its page opens is asked for again and again
+    return _once(("chart", thing.card.key), drawn) if inputs == opening(thing.card.key) else drawn()
+
+
+def _once(name: tuple[str, ...], work: Callable[[], bytes]) -> bytes:
+    """An answer, kept for the next process that is asked for it."""
+    once = kept.Named(name)
+    answer = once.found()
+    if answer is None:
+        answer = work()
+        once.put(lambda: answer)
+    return answer
 
 
 def fit(payload: dict[str, Any], tell: Tell) -> bytes:
@@ -253,17 +276,17 @@ class _Kept:
 
 
 @lru_cache(maxsize=4)
-def _kept(case: str, folder: str, root: str, _language: str) -> _Kept:
+def _read(case: str, folder: str, root: str, _language: str) -> _Kept:
     return _Kept(read_line({"case": case, "folder": folder, "root": root}))
 
 
 def _outcome(payload: dict[str, Any], tell: Tell) -> Any:
     tell(0.0, _("reading the case"))
-    kept = _kept(payload["case"], payload.get("folder", ""), payload.get("root", ""), current_language())
-    if kept.outcome is None:
+    found = _read(payload["case"], payload.get("folder", ""), payload.get("root", ""), current_language())
+    if found.outcome is None:
         tell(0.2, _("compiling and solving"))
-        kept.outcome = kept.line.solve(_watch(tell))
-    return kept.outcome
+        found.outcome = found.line.solve(_watch(tell))
+    return found.outcome
 
 
 def _watch(tell: Tell) -> Watch:
@@ -279,8 +302,23 @@ def _watch(tell: Tell) -> Watch:
     return watch
 
 
+def _is_opening(case: Any) -> bool:
+    """Whether a case is a piece of equipment alone as its page opens."""
+    try:
+        units = tomli.loads(case)["units"].values()
+        return [case] == [case_text(unit["model"], {}) for unit in units]
+    except (ValueError, LookupError, TypeError, AttributeError, GranumError):
+        return False  # what is wrong with it is told where it is read
+
+
 def run(payload: dict[str, Any], tell: Tell) -> bytes:
     """Solve the text of a case file."""
+    if _is_opening(payload["case"]):
+        return _once(("run", payload["case"]), lambda: _run(payload, tell))
+    return _run(payload, tell)
+
+
+def _run(payload: dict[str, Any], tell: Tell) -> bytes:
     outcome = _outcome(payload, tell)
     tell(0.8, _("drawing"))
     data = outcome.as_json()
@@ -316,6 +354,12 @@ def inside(payload: dict[str, Any], tell: Tell) -> bytes:
     """What there is to look at in a piece of equipment alone: sizes of its streams, called after its ports,
     unless all leave as they came; and what it draws of itself.
     """
+    if _is_opening(payload["case"]):
+        return _once(("inside", payload["case"]), lambda: _inside(payload, tell))
+    return _inside(payload, tell)
+
+
+def _inside(payload: dict[str, Any], tell: Tell) -> bytes:
     from granum.reports.html import size_chart
 
     outcome = _outcome(payload, tell)
@@ -379,8 +423,8 @@ def mark(payload: dict[str, Any], _tell: Tell) -> bytes:
 def warm_up(_payload: Any, tell: Tell) -> bytes:
     """Solve and draw a small machine: what every line needs from JAX is then there for the first."""
     payload = {"case": case_text("settling.thickener", {})}
-    run(payload, tell)
-    return inside(payload, tell)
+    _run(payload, tell)
+    return _inside(payload, tell)
 
 
 def rest(payload: dict[str, Any], tell: Tell) -> bytes:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from granum.app.forms import as_typed
 from granum.app.wording import noticed
 from granum.core.cards import Card
 from granum.core.i18n import _
@@ -61,9 +62,11 @@ def _typed(value: Any) -> str:
     return " ".join(map(_typed, value)) if isinstance(value, (list, tuple)) else str(default_as_json(value))
 
 
-def _input_text(value: Any, text: str, origin: str) -> str:
+def _input_text(value: Any, text: str, origin: str, typed: str) -> str:
     if origin:
         return f"{text} ({origin})"
+    if typed:
+        return typed
     if isinstance(value, bool):
         return _("yes") if value else _("no")
     return law_label(value.card) if hasattr(value, "card") else text
@@ -139,11 +142,17 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
     table, series = ranking(result), series_tables(result)
     tabled = {c["name"] for found in (*([table] if table else []), *series) for c in found["columns"]}
     used = [p for p in result.card.parameters if result.inputs[p.name] is not None]
+    typed = as_typed(result.card, given)
     inputs = [
         row
         | {
             "name": p.name,
-            "text": _input_text(result.inputs[p.name], row["text"], result.origins.get(p.name, "")),
+            "text": _input_text(
+                result.inputs[p.name],
+                row["text"],
+                result.origins.get(p.name, ""),
+                typed.get(p.name, ""),
+            ),
         }
         for p, row in zip(used, step["inputs"], strict=True)
     ]

@@ -10,17 +10,16 @@ with every comment and every other line as they were. The text between two steps
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from typing import Any, Concatenate, ParamSpec
 
 import tomlkit
 
-from granum.cases.alone import tables
 from granum.cases.flows import BY_PHASE, BY_TOTAL, WATER, flow_of, in_phases, in_totals, percent
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
 from granum.cases.reading import knowing_own, own_materials, parsed, quantity
+from granum.cases.scaling import entering, scale_of, scaled
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
 from granum.cases.starting import (
     GAS_PER_FEED,
@@ -38,8 +37,7 @@ from granum.cases.starting import (
 )
 from granum.cases.wiring import bypass, connect, disconnect, lead, remove, rename, replace
 from granum.core import registry
-from granum.core.conversion import convert
-from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.stream_figures import FIGURES, PHASES, told_of
 from granum.flowsheet.symbols import word_of
@@ -289,10 +287,16 @@ def form_of_feed(case: str, feed: str, form: str) -> str:
 
 @_with_own_known
 def add_unit(
-    case: str, model: str, name: str = "", origin: str = "", values: Mapping[str, Any] | None = None
+    case: str,
+    model: str,
+    name: str = "",
+    origin: str = "",
+    values: Mapping[str, Any] | None = None,
+    brings: Mapping[str, Any] | None = None,
 ) -> str:
     """A piece of equipment with ordinary values; what ``origin`` names (a feed, or ``unit.outlet``) enters
-    its first inlet.
+    its first inlet. Its size follows from what that ``brings`` in a solved line, its ``mass_flow`` and of
+    this the ``solvent``, else from the feeds.
 
     A dryer or the like that needs gas gets a feed of hot gas of its own.
     """
@@ -306,7 +310,7 @@ def add_unit(
     mixture = table_of(found.raw, "mixture")
     made = dict(values) if values is not None else starting_values(thing.card.key, mixture)
     if values is None:
-        made |= _scaled(thing.card.key, made, found)
+        made |= scaled(thing.card.key, made, scale_of(thing.card.key, found, origin, brings))
     case = with_table(case, ("units", name), {"model": thing.card.key} | made)
     ports = thing.inlet_names()
     if origin:
@@ -323,50 +327,9 @@ def _first_inlet(ports: tuple[str, ...] | None, origin: str) -> str:
     return ports[0] if ports else origin.replace(".", "_")
 
 
-def _scaled(model: str, made: Mapping[str, Any], found: Outline) -> dict[str, Any]:
-    """Sizes of vessels and machines for a line far larger or smaller than what they are fed alone, in
-    proportion.
-    """
-    example = tables(model)
-    alone, here = (_entering(table_of(raw, "feeds")) for raw in (example, found.raw))
-    times, near = here / alone if alone > 0.0 else 1.0, (0.5, 2.0)
-    if model.startswith("evaporation."):  # it is the solvent that is to be driven out, and some must be left
-        alone, here = _solvent(example), _solvent(found.raw)
-        times, near = (here / alone if alone > 0.0 else 1.0), (0.9, 2.0)
-    if times <= 0.0 or near[0] < times < near[1]:
-        return {}
-    parameters = (p for p in registry.find(model).card.parameters if p.name in EXTENSIVE and p.name in made)
-    return {
-        p.name: f"{float(f'{times * float(convert(made[p.name], p)):.2g}'):.10g} {p.kind.unit}"
-        for p in parameters
-        if p.kind is not None
-    }
-
-
-EXTENSIVE = ("area", "screen_area", "volume", "holdup_mass", "shaft_power")
-
-
-def _entering(feeds: Mapping[str, Any]) -> float:
-    """Solid and liquid that the feeds bring, kg/s; unreadable ones count as nothing."""
-    total = 0.0
-    for table in feeds.values():
-        for word in ("mass_flow", "solid_flow", "liquid_flow"):
-            try:
-                total += flow_of(table, word, WATER)
-            except (GranumError, TypeError):
-                continue
-    return total
-
-
-def _solvent(raw: Mapping[str, Any]) -> float:
-    """What the feeds bring of the first liquid, kg/s; unreadable ones count as nothing."""
-    first = (listed(table_of(raw, "mixture"), "liquids") or [""])[0]
-    total = 0.0
-    for table in table_of(raw, "feeds").values():
-        with contextlib.suppress(GranumError, TypeError):
-            share = share_of(table_of(table, "liquid").get(first, "100 %"), first)
-            total += flow_of(table, "liquid_flow", WATER) * share
-    return total
+def _whole(raw: Mapping[str, Any]) -> float:
+    """Solid and liquid that all feeds of a line bring, kg/s."""
+    return entering(raw, list(table_of(raw, "feeds")))
 
 
 def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
@@ -374,7 +337,7 @@ def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
     vapor of the first liquid are added to substances that have none.
     """
     case = _with_vapor(case)
-    flow = GAS_PER_FEED * (_entering(table_of(found.raw, "feeds")) or 1000.0 / 3600.0)
+    flow = GAS_PER_FEED * (_whole(found.raw) or 1000.0 / 3600.0)
     moist = table_of(table_of(found.raw, "feeds"), origin)
     if moist:
         flow = max(flow, GAS_PER_MOISTURE * flow_of(moist, "liquid_flow", WATER))
@@ -407,7 +370,7 @@ def add_wash(case: str, unit: str) -> str:
         case,
         name,
         f"{unit}.wash",
-        wash_liquor(table_of(found.raw, "mixture"), 0.1 * (_entering(table_of(found.raw, "feeds")) or 0.3)),
+        wash_liquor(table_of(found.raw, "mixture"), 0.1 * (_whole(found.raw) or 0.3)),
     )
 
 

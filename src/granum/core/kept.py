@@ -177,7 +177,7 @@ def _surroundings() -> bytes:
     told = sha256(repr([sys.version, platform.machine(), *map(version, TRACERS), settings]).encode())
     package = Path(__file__).parents[1]
     for path in sorted(package.rglob("*")):
-        if path.suffix in (".py", ".csv", ".toml") and "static" not in path.parts:
+        if path.suffix in (".py", ".csv", ".toml", ".po") and "static" not in path.parts:
             told.update(str(path.relative_to(package)).encode() + b"\0")
             told.update(path.read_bytes())
     return told.digest()

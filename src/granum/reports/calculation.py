@@ -34,7 +34,7 @@ def calculation_sheet(
     ----------
     found: the curve to draw, in ``units``; the first that says something when none is given.
     within: results as intervals, by name: text, and how it was found.
-    stated: inputs as intervals, by name.
+    stated: inputs as they were typed, or as intervals, by name.
     link: where the calculation can be opened again.
     """
     step, card = note_step(result), result.card

@@ -71,9 +71,10 @@ def distribution_chart(outcome: Ensemble, v: Variable) -> go.Figure:
         yaxis="y2",
         line={"color": charts.INK, "width": 2},
     )
-    charts.add_right_axis(figure, _("cumulative / %"), range=[0, 100], tickmode="linear", dtick=25)
+    # room above the curve and the bars for the names of the lines
+    charts.add_right_axis(figure, _("cumulative / %"), range=[0, 114], tickmode="linear", dtick=25)
     figure.update_layout(
-        yaxis_range=[0, 1.15 * 100 * counts.max() / len(x)],  # room for the names of the lines
+        yaxis_range=[0, 1.15 * 100 * counts.max() / len(x)],
         bargap=0,
         showlegend=False,
         margin={"r": 70},

@@ -91,15 +91,20 @@ function Tree({ page, cards, current }) {
   return [...groups]
     .filter(([, list]) => list.length)
     .map(
-      ([domain, list]) => html`<details open=${few || (current || '').startsWith(domain + '.')} key=${domain}>
-      <summary>${t(domain)} <span class="dim">${list.length}</span></summary>
-      <ul>${(few ? list.map((card) => ({ card })) : entriesOf(list)).map((entry) =>
-        entry.card
-          ? html`<${Item} key=${entry.card.card} page=${page} card=${entry.card} current=${current} />`
-          : html`<li key=${entry.name}><details class="family" open=${entry.list.some((c) => c.card === current)}><summary>${entry.title}</summary>
-            <ul>${entry.list.map((c) => html`<${Item} key=${c.card} page=${page} card=${c} current=${current} family=${c.family_title} />`)}</ul></details></li>`,
-      )}</ul></details>`,
+      ([domain, list]) => html`<${Fold} key=${domain} open=${few || (current || '').startsWith(domain + '.')} title=${html`${t(domain)} <span class="dim">${list.length}</span>`} inside=${() =>
+        (few ? list.map((card) => ({ card })) : entriesOf(list)).map((entry) =>
+          entry.card
+            ? html`<${Item} key=${entry.card.card} page=${page} card=${entry.card} current=${current} />`
+            : html`<li key=${entry.name}><${Fold} sort="family" open=${entry.list.some((c) => c.card === current)} title=${entry.title} inside=${() =>
+                entry.list.map((c) => html`<${Item} key=${c.card} page=${page} card=${c} current=${current} family=${c.family_title} />`)} /></li>`,
+        )} />`,
     );
+}
+
+/** A group of the list; what is in it is made when it is opened first: a thousand links that nobody sees make every page slow. */
+function Fold({ sort = null, open, title, inside }) {
+  const [seen, setSeen] = useState(open);
+  return html`<details class=${sort} open=${open} onToggle=${(e) => e.currentTarget.open && setSeen(true)}><summary>${title}</summary>${(seen || open) && html`<ul>${inside()}</ul>`}</details>`;
 }
 
 /** A card in the list; in a family what tells it from the others, its whole title for who hears it. */

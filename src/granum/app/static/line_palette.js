@@ -22,6 +22,7 @@ function useRanked(word) {
 export function Palette({ origin, pick, close }) {
   const [list, setList] = useState(kept[settings.language] || null);
   const [word, setWord] = useState('');
+  const [entered, setEntered] = useState('');
   const field = useRef(null);
   useEffect(() => {
     const language = settings.language;
@@ -30,20 +31,31 @@ export function Palette({ origin, pick, close }) {
   }, []);
   const words = plain(word).split(/\s+/).filter(Boolean);
   const ranked = useRanked(word.trim());
-  /** How well the words stand in what a piece is called: "continu" is also in "discontinu"; not at all where the search alone knows it. */
-  const far = (e) => {
+  const has = (e) => {
     const text = plain(`${e.title} ${e.other_names} ${e.model.replaceAll('_', ' ')} ${e.summary}`);
-    return words.every((w) => text.includes(w))
-      ? words.filter((w) => !` ${plain(e.title)}`.includes(` ${w}`)).length
-      : words.length + 1;
+    return words.every((w) => text.includes(w));
   };
+  /** How many of the words do not stand in the title: "continu" is also in "discontinu". */
+  const far = (e) => words.filter((w) => !` ${plain(e.title)}`.includes(` ${w}`)).length;
   const place = (e) => (ranked.includes(e.model) ? ranked.indexOf(e.model) : ranked.length);
   // of what the search alone knows, what it ranks before the last piece that has the words, or the first few
-  const named = (list || []).filter((e) => far(e) <= words.length);
+  const named = (list || []).filter(has);
   const last = named.length ? Math.max(...named.map(place)) : MOST;
   const found = (list || [])
-    .filter((e) => far(e) <= words.length || (place(e) < last && place(e) < ranked.length))
-    .toSorted((one, other) => far(one) - far(other) || place(one) - place(other));
+    .filter((e) => has(e) || (place(e) < last && place(e) < ranked.length))
+    // what one stream is enough for comes before what needs another one first; of titles with all the words the
+    // shortest is the most general
+    .toSorted(
+      (one, other) =>
+        far(one) - far(other) ||
+        one.joins - other.joins ||
+        (far(one) ? 0 : one.title.length - other.title.length) ||
+        place(one) - place(other),
+    );
+  useEffect(() => {
+    // pressed before the search has answered, Enter takes what it finds
+    if (entered && entered === word && found.length) pick(found[0].model);
+  }, [entered, word, found.length]);
   const domains = Object.keys(english).filter((domain) => found.some((e) => e.domain === domain));
   const pieces = (some) =>
     html`<div class="shelf">${some.map(
@@ -54,7 +66,7 @@ export function Palette({ origin, pick, close }) {
     <input type="search" ref=${field} aria-label=${t('Search equipment')} placeholder=${t('filter, dryer, cyclone…')} value=${word} onInput=${(e) => setWord(e.target.value)} onKeyDown=${(
       e,
     ) => {
-      if (e.key === 'Enter' && found.length) pick(found[0].model);
+      if (e.key === 'Enter') setEntered(word);
     }} />
     ${!list && html`<p class="dim" aria-busy="true">${t('Loading…')}</p>`}
     <div class="shelves">${words.length ? pieces(found) : domains.map((domain) => html`<div key=${domain}><h3>${t(domain)}</h3>${pieces(found.filter((e) => e.domain === domain))}</div>`)}</div>

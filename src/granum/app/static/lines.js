@@ -78,6 +78,7 @@ export function Lines({ state }) {
   const [writing, setWriting] = useState(false);
   const [setup, setSetup] = useState(!stacked.matches);
   const [removed, setRemoved] = useState(null);
+  const [sized, setSized] = useState(''); // for what the piece that was put in last was sized
   const stop = useRef(null);
   const latest = useRef('');
   const saved = useRef('');
@@ -235,6 +236,7 @@ export function Lines({ state }) {
       try {
         const found = await ask('/api/case/build', { case: latest.current, operation, arguments: given });
         if (operation === 'remove') setRemoved({ name: pretty(given.name), text: found.case });
+        setSized(found.told);
         await change(found.case);
         const now = await ask('/api/case/form', { case: found.case, across: across.current, place: where.current });
         const fresh = (table) => Object.keys(now[table]).find((name) => !(name in (before?.[table] || {})));
@@ -307,10 +309,19 @@ export function Lines({ state }) {
       setError(problem);
     }
   };
+  /** What an open end brings, where the line as it stands is solved: a piece put on it is sized by that. */
+  const brought = (origin) => {
+    const name = form?.ends.origins.find((end) => end.value === origin)?.stream;
+    const stream = latest.current === solved && outcome?.streams[name];
+    if (!stream) return {};
+    const [solvent] = Object.values(stream.liquid);
+    const brings = { mass_flow: `${stream.mass_flow.value} kg/s` };
+    return { brings: solvent === undefined ? brings : { ...brings, solvent: `${solvent} kg/s` } };
+  };
   const add = async (model) => {
     const origin = palette.origin || '';
     setPalette(null);
-    const made = await build('add_unit', { model, origin });
+    const made = await build('add_unit', { model, origin, ...brought(origin) });
     if (made) choose({ sort: 'unit', name: made });
   };
   const save = async (replace) => {
@@ -427,6 +438,7 @@ export function Lines({ state }) {
     <p class="small dim screen">${t('Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.')}</p>`
     }
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
+    ${sized && chosen.sort === 'unit' && html`<p class="small" role="status" data-sized>${sized}</p>`}
     <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} />`}</div>
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
     ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} prices=${form?.prices} build=${build} /></div>`}</section></main>`;

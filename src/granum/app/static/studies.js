@@ -15,7 +15,7 @@ import {
 } from './core.js';
 import { byTitle, caseAt } from './drafts.js';
 import { Quantity, joined, settled } from './quantity.js';
-import { Outcome, showStudy, useJob } from './study_job.js';
+import { Outcome, lastStudied, showStudy, useJob } from './study_job.js';
 import { Past, usePast } from './study_history.js';
 import {
   KINDS,
@@ -34,7 +34,16 @@ import {
   wantedInputs,
 } from './study_setup.js';
 
+/** The page of studies; opened bare it is at the study that runs, or was started last. */
 export function Studies({ state }) {
+  const last = state.key ? null : lastStudied();
+  useEffect(() => {
+    if (last) location.replace(last);
+  }, [last]);
+  return last ? null : html`<${Study} state=${state} />`;
+}
+
+function Study({ state }) {
   const [list, setList] = useState(null);
   useEffect(() => {
     Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) =>

@@ -5,6 +5,7 @@ import { keepStudy } from './study_history.js';
 
 const PAUSE = 400; // ms between two questions
 const KEPT = 'jobs';
+const STARTED = 'studied';
 const CHANGED = 'granum-jobs';
 const IDLE = {
   running: false,
@@ -25,6 +26,8 @@ function update(place, part) {
   dispatchEvent(new Event(CHANGED));
 }
 const underWay = () => recall(KEPT, {});
+/** Where the study is that runs, else the one that was started last; nothing where none was. */
+export const lastStudied = () => Object.values(underWay()).at(-1)?.link ?? recall(STARTED);
 function keepJob(place, job) {
   const { [place]: _gone, ...rest } = underWay();
   remember(KEPT, job ? { ...rest, [place]: job } : rest);
@@ -77,6 +80,8 @@ async function start(place, study, question, setup) {
   const before = stateOf(place);
   if (before.running && before.id) stop(before.id);
   const mark = Symbol('new');
+  const here = location.hash.startsWith('#/studies/') ? location.hash : link('studies', place);
+  remember(STARTED, here);
   update(place, { id: mark, running: true, share: 0, note: '', error: '', done: false });
   try {
     const { id } = await ask('/api/studies', study);
@@ -84,7 +89,7 @@ async function start(place, study, question, setup) {
       stop(id);
       return;
     }
-    const job = { id, asked: JSON.stringify(study), question, setup };
+    const job = { id, asked: JSON.stringify(study), question, setup, link: here };
     keepJob(place, job);
     follow(place, job);
   } catch (problem) {

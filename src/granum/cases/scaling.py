@@ -1,0 +1,147 @@
+"""Sizes of what is put on a stream: those of its example alone, larger or smaller as the stream is."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Mapping
+from math import ceil
+from typing import Any, NamedTuple
+
+from granum.cases.alone import tables
+from granum.cases.flows import WATER, flow_of
+from granum.cases.outline import Outline, table_of
+from granum.cases.reading import quantity
+from granum.cases.starting import listed
+from granum.core import registry
+from granum.core.conversion import convert
+from granum.core.errors import GranumError
+from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
+from granum.reports.quantities import value_text
+
+# the power of the flow with which they grow: areas and contents in proportion, what a stream flows through
+# at the same velocity with its root
+POWERS = {
+    "area": 1.0,
+    "area_collector": 1.0,
+    "belt_width": 1.0,
+    "diameter": 0.5,
+    "holdup_mass": 1.0,
+    "mass": 1.0,
+    "parallel_number": 1.0,
+    "plate_number": 1.0,
+    "screen_area": 1.0,
+    "shaft_power": 1.0,
+    "throat_area": 1.0,
+    "volume": 1.0,
+}
+BY_DIAMETER = frozenset(
+    (
+        "conveying.pneumatic_conveyor",
+        "conveying.slurry_pipeline",
+        "conveying.thick_slurry_pipeline",
+        "settling.circular_clarifier",
+    )
+)
+"""What is sized by its diameter; in others it is a shape, or several run in parallel."""
+FAR = (0.5, 2.0)  # times within which a line as a whole is taken to be as large as the example
+OFF = (0.9, 1.1)  # and a stream that is known
+EVAPORATED = (0.9, 2.0)  # what is left must be left
+# kg/m³, of a flow that is said as a volume
+DENSITIES = {"mass_flow": WATER, "solid_flow": WATER, "liquid_flow": WATER, "gas_flow": 1.2}
+
+
+class Scale(NamedTuple):
+    """How much more enters than in the example: kg/s here, and times as much; whether this is known."""
+
+    flow: float
+    times: float
+    known: bool
+
+
+def scale_of(model: str, found: Outline, origin: str = "", brings: Mapping[str, Any] | None = None) -> Scale:
+    """How much larger than in its example what enters a piece of equipment is: the stream it is put on, where
+    that is a feed or ``brings`` says its ``mass_flow`` and its ``solvent``, else the line as a whole.
+    """
+    example = tables(model)
+    evaporates = model.startswith("evaporation.")  # the solvent is driven out, and some must be left
+    told = "solvent" if evaporates else "mass_flow"
+    measured = _solvent if evaporates else entering
+    feeds = table_of(found.raw, "feeds")
+    first = next(iter(registry.find(model).inlet_names() or ()), "")
+    if brings and told in brings:
+        here = quantity(brings[told], "MassFlow", told, "")
+    elif origin in feeds:
+        here = measured(found.raw, [origin], True)
+    else:
+        return _scale(
+            measured(found.raw, list(feeds)), measured(example, list(table_of(example, "feeds"))), False
+        )
+    return _scale(here, measured(example, [first], True), True)
+
+
+def _scale(here: float, alone: float, known: bool) -> Scale:
+    return Scale(here, here / alone if alone > 0.0 and here > 0.0 else 1.0, known)
+
+
+def scaled(model: str, made: Mapping[str, Any], scale: Scale) -> dict[str, Any]:
+    """Sizes in proportion, of those that a piece of equipment starts from."""
+    near = EVAPORATED if model.startswith("evaporation.") else OFF if scale.known else FAR
+    if near[0] < scale.times < near[1]:
+        return {}
+    return {p.name: _grown(p, made[p.name], scale.times) for p in _sizes(model) if p.name in made}
+
+
+def _sizes(model: str) -> list[Parameter]:
+    return [
+        p
+        for p in registry.find(model).card.parameters
+        if p.kind is not None and p.name in POWERS and (p.name != "diameter" or model in BY_DIAMETER)
+    ]
+
+
+def _grown(p: Parameter, value: Any, times: float) -> Any:
+    size = times ** POWERS[p.name] * float(convert(value, p))
+    if p.name.endswith("_number"):
+        return max(ceil(size - 1e-9), 1)
+    unit = "" if p.kind is None else p.kind.unit
+    return f"{float(f'{size:.2g}'):.10g} {unit}"
+
+
+def size_told(model: str, made: Mapping[str, Any], scale: Scale) -> str:
+    """For what a piece of equipment was sized, in words; empty where it keeps the size of its example."""
+    sizes = {name: x for name, x in scaled(model, made, scale).items() if x != made[name]}
+    if not sizes:
+        return ""
+    flow = Parameter("mass_flow", KINDS["MassFlow"])
+    values = [
+        f"{p.label} = {value_text(convert(sizes[p.name], p), p)}" for p in _sizes(model) if p.name in sizes
+    ]
+    return _("Sized for {flow}, in proportion to its example: {values}.").format(
+        flow=value_text(scale.flow, flow), values=", ".join(values)
+    )
+
+
+def entering(raw: Mapping[str, Any], feeds: list[str], gas: bool = False) -> float:
+    """Solid and liquid that feeds bring, and gas where it is asked for, kg/s; unreadable ones count as
+    nothing.
+    """
+    total = 0.0
+    for name in feeds:
+        for word, dense in DENSITIES.items() if gas else list(DENSITIES.items())[:-1]:
+            with contextlib.suppress(GranumError, TypeError):
+                total += flow_of(table_of(table_of(raw, "feeds"), name), word, dense)
+    return total
+
+
+def _solvent(raw: Mapping[str, Any], feeds: list[str], _gas: bool = False) -> float:
+    """What feeds bring of the first liquid, kg/s; unreadable ones count as nothing."""
+    first = (listed(table_of(raw, "mixture"), "liquids") or [""])[0]
+    total = 0.0
+    for name in feeds:
+        with contextlib.suppress(GranumError, TypeError):
+            feed = table_of(table_of(raw, "feeds"), name)
+            share = quantity(table_of(feed, "liquid").get(first, "100 %"), "MassFraction", first, "")
+            total += flow_of(feed, "liquid_flow", WATER) * share
+    return total
