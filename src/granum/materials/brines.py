@@ -27,6 +27,7 @@ from granum.materials.ions import Ions, ions_of
 from granum.materials.library import Library, session
 from granum.materials.solutes import Branch, SoluteSystem
 from granum.numerics.complementarity import find_complementary
+from granum.numerics.quick_roots import straight_root
 
 SOLVENT = "water"
 TRACE = 1e-10  # mol of each ion per kg of water, so that none is ever absent
@@ -34,6 +35,8 @@ BESIDE = 5.0  # K within a stable range from which the solubility product goes o
 LEAST = 2e-4  # of the water there is, which crystals and vapor always leave
 FIRST = 3.0  # K of elevation, from which a boiling point is sought
 NEAR = 0.5  # of the solubility of a salt alone, from which equilibrium is sought
+PASSES = 14  # of Newton's method, where some six find a solubility beside other salts
+LEAST_SHARE, MOST_SHARE = -14.0, 1.0  # logarithm of a solubility beside others over the one alone
 
 
 class Mixing(NamedTuple):
@@ -240,6 +243,21 @@ class Brine(eqx.Module):
     def alone(self, T: Any) -> Any:
         """Solubility of each salt alone, mol/kg."""
         return jnp.stack([s.value(T) / M for s, M in zip(self.salts, self.molar_masses, strict=True)])
+
+    def solubility(self, T: Any, others: Any, crystal: int) -> Any:
+        """What dissolves of one crystal beside the ions of other salts (mol/kg), mol of its salt per kg of
+        water.
+        """
+        T, form = jnp.asarray(T, dtype=float), self.crystals[crystal]
+        given, goal = self.coefficients(T), self._log_saturated(T)[crystal]
+        part = jnp.asarray(form.ions, dtype=float)
+
+        def excess(log_m: Any) -> Any:
+            products, _log_water = self._products(given, others + jnp.exp(log_m) * part)
+            return (products[crystal] - goal) / sum(form.ions)
+
+        start = jnp.log(self.alone(T)[form.salt])
+        return jnp.exp(straight_root(excess, start, PASSES, (start + LEAST_SHARE, start + MOST_SHARE)))
 
     def equilibrium(
         self, T: Any, water: Any, ions: Any, which: Sequence[int], boiling: Boiling | None = None

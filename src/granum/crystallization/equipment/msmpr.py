@@ -33,6 +33,7 @@ from granum.core.kinds import (
     Velocity,
 )
 from granum.core.limits import Limit
+from granum.crystallization.equipment.beside import heard_beside, keeps_solvent, solubility_beside
 from granum.crystallization.equipment.boiling import Boiling, boiling_of
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
@@ -148,11 +149,15 @@ class _Continuous(Stirred, Unit):
     def _steady(self, feed: Stream, found: Roles, evaporation: Any, per_crystal: Any) -> Any:
         """The steady suspension."""
         T = self.held_at(feed.mixture)
+        left = None
+        if keeps_solvent(found) and isinstance(per_crystal, float):
+            left = feed.liquid[found.solvent] - evaporation
+        soluble = solubility_beside(self.solubility, feed.mixture, found, feed.liquid, T, left)
         return steady_msmpr(
             feed_of(feed, found),
             T,
             self.volume,
-            self.solubility,
+            soluble,
             self.growth,
             self.nucleation,
             crystal_of(feed.mixture, found, T, self.volume_shape_factor),
@@ -175,6 +180,8 @@ class _Continuous(Stirred, Unit):
         self.solubility(self.held_at(feed.mixture))
         state = self._steady(feed, found, *self._evaporation(feed, found))
         unsolved(state.converged, type(self).card, reason=_UNSOLVED)
+        there = self.held_at(feed.mixture), state.solute_per_solvent, state.solvent
+        heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         return state, found
 
     def outlets(self, inside: tuple[SteadyState, Roles], feed: Stream) -> Crystallized:
