@@ -27,7 +27,6 @@ from granum.materials.ions import Ions, ions_of
 from granum.materials.library import Library, session
 from granum.materials.solutes import Branch, SoluteSystem
 from granum.numerics.complementarity import find_complementary
-from granum.numerics.quick_roots import straight_root
 
 SOLVENT = "water"
 TRACE = 1e-10  # mol of each ion per kg of water, so that none is ever absent
@@ -257,7 +256,12 @@ class Brine(eqx.Module):
             return (products[crystal] - goal) / sum(form.ions)
 
         start = jnp.log(self.alone(T)[form.salt])
-        return jnp.exp(straight_root(excess, start, PASSES, (start + LEAST_SHARE, start + MOST_SHARE)))
+
+        def step(_pass: Any, log_m: Any) -> Any:
+            value, slope = jax.jvp(excess, (log_m,), (jnp.ones_like(log_m),))
+            return jnp.clip(log_m - value / slope, start + LEAST_SHARE, start + MOST_SHARE)
+
+        return jnp.exp(jax.lax.fori_loop(0, PASSES, step, start))
 
     def equilibrium(
         self, T: Any, water: Any, ions: Any, which: Sequence[int], boiling: Boiling | None = None

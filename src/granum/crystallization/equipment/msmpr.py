@@ -297,7 +297,9 @@ class Msmpr(_Evaporating, InTime):
 
     The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute
     balance leaves; seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their
-    water from the solvent. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
+    water from the solvent. Beside other salts that are known as ions the solubility of the library is that of
+    the mixture, and what of them would crystallize too is told; a law of one's own is taken as that of this
+    liquor. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
     fast enough to keep all crystals off the bottom. A viscosity that is not known counts there as that of
     water.
     """
