@@ -99,7 +99,7 @@ class Thinned(eqx.Module):
 
 COLDEST, STEP, ROWS = 258.15, 2.5, 53  # K: temperatures of a table
 THINNEST, THICKEST, COLUMNS = 1.6, -2.5, 48  # logarithm of the dilution over that of the feed
-ROOM = 1.2  # of the solubility of the other salts alone, up to which they are followed
+ROOM = 2.0  # of the solubility of the other salts alone, up to which they are followed
 
 
 def _between(values: Any, place: Any) -> Any:
@@ -220,6 +220,12 @@ def _known_beside(
         if find_brine((*names, liquid.name), mixture.materials) is not None:
             names, places = (*names, liquid.name), [*places, place]
     return names, places
+
+
+def others_per_solvent(found: Roles, liquid: Any) -> Any:
+    """kg of other liquids per kg of solvent."""
+    rest = jnp.sum(liquid) - liquid[found.solute] - liquid[found.solvent]
+    return safe_divide(rest, liquid[found.solvent], 0.0)
 
 
 def heard_beside(

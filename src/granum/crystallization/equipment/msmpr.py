@@ -9,7 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import equipment
+from granum.core import equipment, flags
 from granum.core.conversion import is_tracer
 from granum.core.errors import CaseError
 from granum.core.flags import unsolved
@@ -33,7 +33,13 @@ from granum.core.kinds import (
     Velocity,
 )
 from granum.core.limits import Limit
-from granum.crystallization.equipment.beside import heard_beside, keeps_solvent, solubility_beside
+from granum.crystallization.equipment.beside import (
+    TOLD,
+    heard_beside,
+    keeps_solvent,
+    others_per_solvent,
+    solubility_beside,
+)
 from granum.crystallization.equipment.boiling import Boiling, boiling_of
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
@@ -60,6 +66,10 @@ _UNSOLVED = (
     "check feed, kinetics and evaporation."
 )
 
+LIFTED = (
+    "The boiling point is that of the solute alone in its solvent, which the other solutes raise further: give "
+    "'elevation_linear' and 'elevation_quadratic' for this liquor."
+)
 
 WATER = COLD["cooling_water"] + COLD_APPROACH  # K, at which cooling water condenses the vapor
 
@@ -384,6 +394,14 @@ class VacuumCrystallizer(_Continuous, InTime):
         if self.pressure is None:
             return vapor.replace(pressure=jnp.minimum(law.pressure(vapor.temperature), feed.pressure))
         return vapor.replace(pressure=jnp.asarray(self.pressure, dtype=float))
+
+    def inside(self, feed: Stream) -> tuple[Any, Roles]:
+        made = super().inside(feed)
+        share = others_per_solvent(made[1], feed.liquid)
+        if self.elevation_linear is None and self.elevation_quadratic is None:
+            about = share > TOLD, share, "boiling_point_elevation", type(self).card.key
+            flags.record(flags.EXTRAPOLATED, *about, reason=LIFTED)
+        return made
 
     def figures(
         self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
