@@ -390,8 +390,9 @@ class BatchCrystallizer(CycledVessel, ChargedVessel):
 
     Crystals that come with the feed are the seeds, together with ``seed_mass_per_solvent`` of a sieve cut,
     which is taken from the product (a share of the crystals is held back for the next batch, so that the line
-    balances). Other salts count as in ``msmpr``. The duty is the mean one; its peak is larger. The vessel is as high as wide; without a
-    ``rotation_speed`` its stirrer turns just fast enough to keep all crystals off the bottom.
+    balances). Other salts count as in ``msmpr``. The duty is the mean one; its peak is larger. The vessel is
+    as high as wide; without a ``rotation_speed`` its stirrer turns just fast enough to keep all crystals off
+    the bottom.
     """
 
     temperature_program: Program

@@ -167,7 +167,10 @@ def _saturations(names: tuple[str, ...], materials: Library, T: Any, molalities:
 def _beside(law: Any, mixture: Mixture, found: Roles, liquid: Any) -> Beside | None:
     if not isinstance(law, LibrarySolubility) or mixture.liquids[found.solvent].name != SOLVENT:
         return None
-    names, places = _known_beside(law, mixture, found)
+    library, solute = law.materials or session(), mixture.liquids[found.solute].name
+    if law.solute not in library.names("solute") or library.solute(law.solute).name != solute:
+        return None
+    names, places = _known_beside(mixture, found)
     made = find_brine(names, mixture.materials) if places else None
     if made is None:
         return None
@@ -205,21 +208,27 @@ def _heard(made: Beside, temperature: Any, ratio: Any, solvent: Any, card: Any) 
     unsolved(~full, card, reason=EXCHANGED)
 
 
-def _known_beside(
-    law: LibrarySolubility, mixture: Mixture, found: Roles
-) -> tuple[tuple[str, ...], list[int]]:
+def _known_beside(mixture: Mixture, found: Roles) -> tuple[tuple[str, ...], list[int]]:
     """Names of the salts known beside the solute, itself the first, and the places of the others."""
-    solute = mixture.liquids[found.solute].name
-    library = law.materials or session()
-    if law.solute not in library.names("solute") or library.solute(law.solute).name != solute:
-        return (solute,), []
-    names, places = (solute,), []
+    names, places = (mixture.liquids[found.solute].name,), []
     for place, liquid in enumerate(mixture.liquids):
-        if place in (found.solute, found.solvent):
-            continue
-        if find_brine((*names, liquid.name), mixture.materials) is not None:
+        other = place not in (found.solute, found.solvent)
+        if other and find_brine((*names, liquid.name), mixture.materials) is not None:
             names, places = (*names, liquid.name), [*places, place]
     return names, places
+
+
+def water_activity_beside(mixture: Mixture, found: Roles, liquid: Any, temperature: Any) -> Any:
+    """Activity of water over a liquor of salts; None where there is one alone, or what they do to each other
+    is not known.
+    """
+    names, places = _known_beside(mixture, found)
+    if not places or mixture.liquids[found.solvent].name != SOLVENT:
+        return None
+    known = brine(names, mixture.materials)
+    salts = liquid[jnp.array([found.solute, *places])] / known.molar_masses[: len(names)]
+    ions = salts @ jnp.asarray(known.ions_per_salt[: len(names)])
+    return known.water_activity(temperature, safe_divide(ions, liquid[found.solvent], 0.0))
 
 
 def others_per_solvent(found: Roles, liquid: Any) -> Any:

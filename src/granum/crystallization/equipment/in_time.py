@@ -89,7 +89,7 @@ class InTime(Dynamic):
         """Temperature inside, K."""
 
     @abstractmethod
-    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream: ...
+    def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream: ...
 
     @abstractmethod
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]: ...
@@ -271,5 +271,5 @@ class InTime(Dynamic):
             gas=0.0 * now.gas,
             temperature=T,
         )
-        vapor = self._vapor(given_off(now, found, state.evaporation, T), now, found)
+        vapor = self._vapor(given_off(now, found, state.evaporation, T), product, found)
         return Crystallized(product, vapor, jnp.zeros(()))

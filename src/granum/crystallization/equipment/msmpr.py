@@ -39,6 +39,7 @@ from granum.crystallization.equipment.beside import (
     keeps_solvent,
     others_per_solvent,
     solubility_beside,
+    water_activity_beside,
 )
 from granum.crystallization.equipment.boiling import Boiling, boiling_of
 from granum.crystallization.equipment.in_time import Crystallized, InTime
@@ -67,8 +68,8 @@ _UNSOLVED = (
 )
 
 LIFTED = (
-    "The boiling point is that of the solute alone in its solvent, which the other solutes raise further: give "
-    "'elevation_linear' and 'elevation_quadratic' for this liquor."
+    "The boiling point is that of the solute alone in its solvent, which the other solutes raise further: "
+    "give 'elevation_linear' and 'elevation_quadratic' for this liquor."
 )
 
 WATER = COLD["cooling_water"] + COLD_APPROACH  # K, at which cooling water condenses the vapor
@@ -204,7 +205,7 @@ class _Continuous(Stirred, Unit):
             gas=0.0 * feed.gas,
             temperature=jnp.asarray(T, dtype=float),
         )
-        vapor = self._vapor(given_off(feed, found, state.evaporation, T), feed, found)
+        vapor = self._vapor(given_off(feed, found, state.evaporation, T), product, found)
         if found.vapor is not None:
             refuse_boiling(vapor.gas[found.vapor], product, feed, found, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
@@ -260,7 +261,7 @@ class _Continuous(Stirred, Unit):
         """Temperature inside, K."""
         return self.temperature
 
-    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream:
+    def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream:
         """The vapor at the pressure over the suspension, which is that of the pure solvent by default."""
         return vapor
 
@@ -355,7 +356,8 @@ class VacuumCrystallizer(_Continuous, InTime):
     adiabatic flash). Either the temperature is given and the pressure that must be held follows, or the other
     way round: the saturated mother liquor boils there. The elevation is that of the library's water activity,
     or of two coefficients over the mass fraction of solute; it counts as none at a given temperature where
-    neither is there. Further solutes and the supersaturation do not raise it. An ejector is needed where
+    neither is there. At a given temperature other salts that are known as ions raise it too; at a given
+    pressure they do not, which a note tells, nor does the supersaturation. An ejector is needed where
     cooling water condenses nothing, below 35 °C.
     """
 
@@ -387,18 +389,25 @@ class VacuumCrystallizer(_Continuous, InTime):
         assert law is not None
         return law.temperature(self.pressure, type(self).card)
 
-    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream:
-        law = self._boiling(feed.mixture)
+    def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream:
+        law = self._boiling(product.mixture)
         if law is None:
             return vapor
         if self.pressure is None:
-            return vapor.replace(pressure=jnp.minimum(law.pressure(vapor.temperature), feed.pressure))
+            T = vapor.temperature
+            activity = water_activity_beside(product.mixture, found, product.liquid, T)
+            over = law.pressure(T)
+            if activity is not None and law.coefficients is None:
+                over = law.solvent.vapor_pressure.value(T) * activity
+            return vapor.replace(pressure=jnp.minimum(over, product.pressure))
         return vapor.replace(pressure=jnp.asarray(self.pressure, dtype=float))
 
     def inside(self, feed: Stream) -> tuple[Any, Roles]:
         made = super().inside(feed)
         share = others_per_solvent(made[1], feed.liquid)
-        if self.elevation_linear is None and self.elevation_quadratic is None:
+        given = self.elevation_linear is not None or self.elevation_quadratic is not None
+        known = water_activity_beside(feed.mixture, made[1], feed.liquid, feed.temperature) is not None
+        if not given and (self.pressure is not None or not known):
             about = share > TOLD, share, "boiling_point_elevation", type(self).card.key
             flags.record(flags.EXTRAPOLATED, *about, reason=LIFTED)
         return made
