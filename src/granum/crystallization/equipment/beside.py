@@ -10,9 +10,11 @@ import jax.numpy as jnp
 from jax import lax
 
 from granum.core import flags
+from granum.core.errors import CaseError
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.crystallization.equipment.roles import Roles
-from granum.crystallization.formulas.solubility_laws import LibrarySolubility
+from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, LibrarySolubility
 from granum.crystallization.population.compiled import compiled
 from granum.materials.brines import SOLVENT, Brine, brine, find_brine
 from granum.materials.correlation import Owner
@@ -125,6 +127,28 @@ def _logs(made: tuple[str, ...], materials: Library, crystal: int, T: Any, molal
     return jax.vmap(lambda T: jax.vmap(lambda m: one(T, m))(molalities))(T)
 
 
+def refuse_other_system(law: Any, mixture: Mixture, found: Roles) -> None:
+    """Refuse the library's solubility of another solute, or in another solvent, than those of the mixture."""
+    if isinstance(law, AntisolventSolubility):
+        law = law.pure_solubility
+    if not isinstance(law, LibrarySolubility):
+        return
+    known = law.materials or session()
+    if law.solute not in known.names("solute"):
+        return
+    system, names = known.solute(law.solute), mixture.materials.names
+    solute, solvent = (mixture.liquids[i].name for i in (found.solute, found.solvent))
+    other = solute in names("solute") and mixture.materials.solute(solute).name != system.name
+    elsewhere = solvent in names("fluid") and mixture.materials.fluid(solvent).name != system.solvent.name
+    if other or elsewhere:
+        raise CaseError(
+            _(
+                "The solubility of the library is that of {system}, not of '{solute}' in '{solvent}': give a "
+                "law of your own, such as 'polynomial_solubility' or 'apelblat_solubility'."
+            ).format(system=system.label, solute=solute, solvent=solvent)
+        )
+
+
 def solubility_beside(
     law: Any, mixture: Mixture, found: Roles, liquid: Any, temperature: Any = None, solvent: Any = None
 ) -> Any:
@@ -135,6 +159,7 @@ def solubility_beside(
     ``temperature`` where the vessel has one; ``solvent`` (kg) where it holds the others whatever
     crystallizes, else the solubility asks for it.
     """
+    refuse_other_system(law, mixture, found)
     made = _beside(law, mixture, found, liquid)
     if made is None:
         return law

@@ -239,10 +239,11 @@ class _Continuous(Stirred, Unit):
         figures: Any,
         feed: Stream,
     ) -> dict[str, Any]:
+        dissolved = feed.liquid[inside[1].solute]
         return {
             "crowded": outlets.product.solids_volume_fraction,
             "time": figures.residence_time,
-            "present": jnp.where(inside[0].washed_out, 0.0, 1.0),
+            "present": jnp.where((figures.crystal_flow > 0.0) | ~(dissolved > 0.0), 1.0, 0.0),
             "largest": outlets.product.size_fractions[-1],
             "drying": figures.evaporation,
         } | self.stirrer_measured(outlets.product, self.volume)
