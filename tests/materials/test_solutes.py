@@ -378,7 +378,7 @@ def test_syrup_is_as_thick_as_tabulated(celsius: float, share: float, expected: 
     70 % at 20 °C: ICUMSA, recalled.
     """
     law = m.solute("sucrose").viscosity_law
-    assert 1e3 * float(law(273.15 + celsius, share)) == pytest.approx(expected, rel=0.03)
+    assert 1e3 * float(law(273.15 + celsius, share)) == pytest.approx(expected, rel=0.04)
 
 
 def test_syrup_thickens_with_sugar_and_thins_with_heat_from_one_law_to_the_other() -> None:
