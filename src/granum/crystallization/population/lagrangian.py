@@ -30,7 +30,7 @@ from granum.crystallization.population.packets import (
     SizeMap,
     mean_power,
 )
-from granum.crystallization.vessels.crystals import Crystal, ratio_left, saturation
+from granum.crystallization.vessels.crystals import Crystal, ratio_left
 from granum.numerics.quick_roots import TOLERANCE, nearly_falling_root
 
 
@@ -100,8 +100,10 @@ class Model(eqx.Module):
             return self.solubility.saturated(contents)
         if getattr(self.solubility, "takes_antisolvent", False):
             return self.solubility(contents.temperature, contents.antisolvent / contents.solvent)
-        bound = (1.0 - self.crystal.solute_fraction) * crystals
-        return saturation(self.solubility, contents.temperature, contents.solvent - bound)
+        if not getattr(self.solubility, "takes_solvent", False):
+            return self.solubility(contents.temperature)
+        free = contents.solvent - (1.0 - self.crystal.solute_fraction) * crystals
+        return self.solubility(contents.temperature, free)
 
     def ratio(self, contents: Contents, crystals: Any) -> Any:
         """Solute per solvent left in solution."""

@@ -120,8 +120,8 @@ def dynamic_viscosity_genotelle(
 ) -> DynamicViscosity:
     """Viscosity of a sucrose solution from its mole fraction, also of thick syrups.
 
-    N is the mole fraction of sucrose, of 19 times the molar mass of water; water alone comes out up to 4 %
-    off. Recalled as Mathlouthi and Reiser quote it, the print was not opened.
+    N is the mole fraction of sucrose, of 19 times the molar mass of water; meant for syrups, as water alone
+    comes out a few percent off. Recalled as Mathlouthi and Reiser quote it, the print was not opened.
 
     Syrup with 65 % of sucrose at 40 °C: 44.4 mPa s in the tables.
 
