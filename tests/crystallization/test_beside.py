@@ -7,6 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.core.errors import CaseError
 from granum.core.notices import describe
 from granum.crystallization.equipment.batch import BatchCrystallizer
 from granum.crystallization.equipment.beside import Thinned, solubility_beside
@@ -133,3 +134,11 @@ def test_glaubers_salt_takes_the_water_of_the_brine():
     still = known.equilibrium(288.15, 1.0, ions, [wet]).crystals[0] * 0.3221956
     made = cooled("sodium sulfate", 288.15).operate(feed=feed).figures
     assert float(made.crystal_flow) == pytest.approx(float(still), rel=0.002)
+
+
+@pytest.mark.parametrize("liquids", [["acetone", "paracetamol"], ["water", KCL]])
+def test_a_solubility_of_another_system_is_refused(liquids):
+    mixture = mixture_of(liquids, liquids[1:], [], EDGES)
+    feed = empty(mixture, 298.15).replace(liquid=jnp.array([1.0, 0.1]))
+    with pytest.raises(CaseError, match="paracetamol in water, not of"):
+        cooled("paracetamol").operate(feed=feed)
