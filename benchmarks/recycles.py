@@ -15,8 +15,8 @@ import numpy as np
 from tests.flowsheet.corpus import cases as corpus
 
 from benchmarks.rows import Row, tell
-from granum.flowsheet import solve
 from granum.core.packing import compiled
+from granum.flowsheet import solve
 from granum.numerics import Anderson, Continuation
 
 

@@ -39,6 +39,7 @@ heat_boiling = water_per_salt * float(m.water_heat_of_vaporization("60 degC"))
 
 # ---- exchange
 first_crystal = c.reciprocal_saturation("25 degC", 0.5, 0.5)
+beside = c.solubility_beside_salt("25 degC", "200 g/kg")
 
 # ---- barrier
 KNO3 = {"crystal_density": "2110 kg/m^3", "molar_mass": "101.1 g/mol"}

@@ -14,6 +14,7 @@ from tests.sharing.places import EXAMPLES
 import granum as gr
 from granum.cases.alone import alone
 from granum.core.errors import CaseError, InputError
+from granum.core.packing import as_arrays
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer,
     AntisolventCrystallizer,
@@ -24,7 +25,6 @@ from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import NoNucleation, PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
 from granum.crystallization.lab_tests.solubility import SolubilityAntisolvent
-from granum.core.packing import as_arrays
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 

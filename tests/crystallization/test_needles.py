@@ -14,6 +14,7 @@ from tests.contracts.unit_search import Case, rows, shares, tried, wrong
 from tests.sharing.places import EXAMPLES
 
 import granum as gr
+from granum.core.packing import compiled
 from granum.crystallization.equipment.needles import NeedleBatchCrystallizer, NeedleCrystallizer
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
@@ -22,7 +23,6 @@ from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
 from granum.crystallization.population.needles import Aged, Segments, shifted
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.axes import gather_axes
-from granum.core.packing import compiled
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
 

@@ -341,8 +341,8 @@ def test_flash_dryer_in_a_recycle() -> None:
     """Half of the product goes back to the feed; the loop starts from an empty stream, whose residual says
     little.
     """
-    from granum.flowsheet import Flowsheet
     from granum.core.packing import compiled
+    from granum.flowsheet import Flowsheet
     from granum.flowsheet.solving import solve
     from granum.streams.equipment.basics import Mixer, Splitter
 

@@ -22,8 +22,8 @@ from granum.comminution.equipment.screens import Screen
 from granum.comminution.population import rate_matrix
 from granum.core import flags
 from granum.core.errors import ConvergenceError, GranumError
-from granum.flowsheet import Flowsheet, Line, Movement, Profile, march, solve_compiled
 from granum.core.packing import compiled
+from granum.flowsheet import Flowsheet, Line, Movement, Profile, march, solve_compiled
 from granum.particles.partition import RosinRammlerPartition
 from granum.streams.equipment.basics import Mixer, Single, Splitter, StirredTank
 from granum.streams.mixture import Mixture, Species

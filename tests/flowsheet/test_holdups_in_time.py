@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from granum.core.packing import compiled
 from granum.crystallization.equipment.msmpr import Msmpr
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
 from granum.flowsheet import Flowsheet, Profile, march, solve
-from granum.core.packing import compiled
 from granum.settling.equipment.clarifier_thickener import ClarifierThickener
 from granum.settling.equipment.clarifiers import CircularClarifier
 from granum.settling.velocities import Vesilind

@@ -18,8 +18,8 @@ from tests.sharing.streams import FEED, ONLY_WATER, loop
 import granum as gr
 from granum.core import flags
 from granum.core.errors import ConvergenceError
-from granum.flowsheet import Flowsheet, ladder
 from granum.core.packing import _built
+from granum.flowsheet import Flowsheet, ladder
 from granum.flowsheet.run import Line
 from granum.flowsheet.solving import QUICK_METHOD
 from granum.flowsheet.specifications import design

@@ -360,3 +360,29 @@ def test_every_solute_has_a_viscosity() -> None:
         ratio = float(s.viscosity_law(298.15, 0.05)) / pure
         assert 0.9 < ratio < 1.6, name
     assert float(m.solute("cesium iodide").solution_viscosity(298.15, 0.2)) < 8.9e-4
+
+
+@pytest.mark.parametrize(
+    ("celsius", "share", "expected"),
+    [
+        (40, 0.65, 44.36),
+        (60, 0.65, 17.9),
+        (40, 0.30, 1.833),
+        (20, 0.60, 58.5),
+        (20, 0.70, 482),
+    ],
+)
+def test_syrup_is_as_thick_as_tabulated(celsius: float, share: float, expected: float) -> None:
+    """65 and 30 %: tables quoted in a student report of Michigan Technological University (opened); 60 and
+    70 % at 20 °C: ICUMSA, recalled.
+    """
+    law = m.solute("sucrose").viscosity_law
+    assert 1e3 * float(law(273.15 + celsius, share)) == pytest.approx(expected, rel=0.04)
+
+
+def test_syrup_thickens_with_sugar_and_thins_with_heat_from_one_law_to_the_other() -> None:
+    law = m.solute("sucrose").viscosity_law
+    shares, T = jnp.linspace(0.0, 0.85, 200), jnp.array([283.15, 298.15, 328.15, 363.15])
+    found = jax.jit(jax.vmap(lambda t: jax.vmap(lambda w: law(t, w))(shares)))(T)
+    assert bool(jnp.all(jnp.diff(found, axis=1) > 0.0))
+    assert bool(jnp.all(jnp.diff(found, axis=0) < 0.0))

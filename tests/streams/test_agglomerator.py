@@ -10,8 +10,8 @@ import pytest
 
 import granum as gr
 from granum.core import registry
-from granum.flowsheet import Flowsheet, gather_axes
 from granum.core.packing import compiled
+from granum.flowsheet import Flowsheet, gather_axes
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
 

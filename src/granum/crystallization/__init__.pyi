@@ -49,6 +49,12 @@ from granum.crystallization.equipment.batch import (
     VacuumBatchFigures as VacuumBatchFigures,
     VacuumBatchOutlets as VacuumBatchOutlets,
 )
+from granum.crystallization.equipment.beside import (
+    Beside as Beside,
+    Fixed as Fixed,
+    Thinned as Thinned,
+    Warmed as Warmed,
+)
 from granum.crystallization.equipment.boiling import (
     Boiling as Boiling,
 )
@@ -490,8 +496,10 @@ from granum.crystallization.vessels.common_ion import (
     Isotherm as Isotherm,
     Path as Path,
     ReciprocalSaturation as ReciprocalSaturation,
+    SolubilityBeside as SolubilityBeside,
     invariant_point as invariant_point,
     reciprocal_saturation as reciprocal_saturation,
+    solubility_beside_salt as solubility_beside_salt,
 )
 from granum.crystallization.vessels.crystals import (
     Crystal as Crystal,

@@ -107,6 +107,7 @@ from granum.materials.formulas.seawater import (
     seawater_viscosity as seawater_viscosity,
 )
 from granum.materials.formulas.solutions import (
+    dynamic_viscosity_genotelle as dynamic_viscosity_genotelle,
     dynamic_viscosity_jones_dole as dynamic_viscosity_jones_dole,
     dynamic_viscosity_laliberte as dynamic_viscosity_laliberte,
     liquid_density_laliberte as liquid_density_laliberte,
@@ -178,6 +179,7 @@ from granum.materials.solutes import (
     LaliberteLaw as LaliberteLaw,
     NoLaw as NoLaw,
     SoluteSystem as SoluteSystem,
+    SyrupViscosity as SyrupViscosity,
 )
 from granum.materials.stated import (
     StatedFluid as StatedFluid,

@@ -34,6 +34,8 @@ BESIDE = 5.0  # K within a stable range from which the solubility product goes o
 LEAST = 2e-4  # of the water there is, which crystals and vapor always leave
 FIRST = 3.0  # K of elevation, from which a boiling point is sought
 NEAR = 0.5  # of the solubility of a salt alone, from which equilibrium is sought
+PASSES = 14  # of Newton's method, where some six find a solubility beside other salts
+LEAST_SHARE, MOST_SHARE = -14.0, 1.0  # logarithm of a solubility beside others over the one alone
 
 
 class Mixing(NamedTuple):
@@ -240,6 +242,26 @@ class Brine(eqx.Module):
     def alone(self, T: Any) -> Any:
         """Solubility of each salt alone, mol/kg."""
         return jnp.stack([s.value(T) / M for s, M in zip(self.salts, self.molar_masses, strict=True)])
+
+    def solubility(self, T: Any, others: Any, crystal: int) -> Any:
+        """What dissolves of one crystal beside the ions of other salts (mol/kg), mol of its salt per kg of
+        water.
+        """
+        T, form = jnp.asarray(T, dtype=float), self.crystals[crystal]
+        given, goal = self.coefficients(T), self._log_saturated(T)[crystal]
+        part = jnp.asarray(form.ions, dtype=float)
+
+        def excess(log_m: Any) -> Any:
+            products, _log_water = self._products(given, others + jnp.exp(log_m) * part)
+            return (products[crystal] - goal) / sum(form.ions)
+
+        start = jnp.log(self.alone(T)[form.salt])
+
+        def step(_pass: Any, log_m: Any) -> Any:
+            value, slope = jax.jvp(excess, (log_m,), (jnp.ones_like(log_m),))
+            return jnp.clip(log_m - value / slope, start + LEAST_SHARE, start + MOST_SHARE)
+
+        return jnp.exp(jax.lax.fori_loop(0, PASSES, step, start))
 
     def equilibrium(
         self, T: Any, water: Any, ions: Any, which: Sequence[int], boiling: Boiling | None = None

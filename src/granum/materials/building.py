@@ -41,6 +41,7 @@ from granum.materials.solutes import (
     LaliberteLaw,
     NoLaw,
     SoluteSystem,
+    SyrupViscosity,
 )
 
 _KIND_OF = {
@@ -307,6 +308,8 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         viscosity = LaliberteLaw(
             dynamic_viscosity_laliberte, tuple(entry.viscosity), tuple(entry.viscosity_limits or ())
         )
+        if entry.thick_viscosity:
+            viscosity = SyrupViscosity(viscosity)
     if entry.heat_capacity:
         heat_capacity = LaliberteLaw(
             specific_heat_capacity_laliberte,

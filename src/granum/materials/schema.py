@@ -205,6 +205,9 @@ class SoluteEntry(_Named):
         default=None, min_length=3, max_length=3, description="K, K, largest mass fraction of solute"
     )
     viscosity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
+    thick_viscosity: Literal["genotelle"] | None = Field(
+        default=None, description="law of solutions too thick for the coefficients of 'viscosity'"
+    )
     viscosity_b: float | None = Field(default=None, description="Jones and Dole's coefficient, L/mol")
     heat_capacity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
     water_activity: ActivityEntry | None = None

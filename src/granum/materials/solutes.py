@@ -28,7 +28,7 @@ from granum.materials.correlation import (
     as_temperature,
 )
 from granum.materials.fluids import Fluid
-from granum.materials.formulas.solutions import dynamic_viscosity_jones_dole
+from granum.materials.formulas.solutions import dynamic_viscosity_genotelle, dynamic_viscosity_jones_dole
 from granum.materials.solids import Solid
 from granum.numerics import find_root
 
@@ -317,6 +317,7 @@ ESTIMATED = (
     "No viscosity of this solution is known here: Einstein's law for the volume of the solute stands in, "
     "half of what sugars and organic acids do, and far less in strong solutions."
 )
+THIN, THICK = 0.4, 0.5  # mass fraction of sucrose between which one law gives way to the other
 SLACK = 0.51  # K: the limits of the source are rounded
 
 
@@ -340,6 +341,23 @@ class LaliberteLaw(eqx.Module):
                 flags.EXTRAPOLATED, w > most * (1.0 + 1e-3), w, "solute_mass_fraction", key, 0.0, most, source
             )
         return self.form(temperature, solute_mass_fraction, np.asarray(self.coefficients))
+
+
+class SyrupViscosity(eqx.Module):
+    """Viscosity of a solution of sucrose: Laliberté's coefficients, which end at half sugar, and Génotelle's
+    equation beyond, which agree there to 3 %.
+    """
+
+    thin: LaliberteLaw
+    is_missing = False
+
+    def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
+        w = jnp.asarray(solute_mass_fraction)
+        s = jnp.clip((w - THIN) / (THICK - THIN), 0.0, 1.0)
+        share = s * s * (3.0 - 2.0 * s)
+        thin = self.thin(temperature, jnp.where(share < 1.0, jnp.minimum(w, THICK), 0.0))
+        thick = dynamic_viscosity_genotelle(temperature, w)
+        return jnp.exp((1.0 - share) * jnp.log(thin) + share * jnp.log(thick))
 
 
 class DiluteViscosity(eqx.Module):

@@ -203,10 +203,13 @@ class LineSubject(Subject):
             unit, _dot, name = plain.partition(".")
             if unit in line.units:
                 thing = line.units[unit]
+                told_too = name in {p.name for p in type(thing).card.outputs}
                 if name in {p.name for p in type(thing).card.parameters}:
                     value = getattr(thing, name)
-                    return value if index is None else value[index]
-                if name in {p.name for p in type(thing).card.outputs}:
+                    # what is not set may be a figure of the same name, such as a pressure
+                    if value is not None or not told_too:
+                        return value if index is None else value[index]
+                if told_too:
                     value = getattr(found.solution.sheets[unit][0], name)
                     return value if index is None else value[index]
                 if name in type(thing).utilities:

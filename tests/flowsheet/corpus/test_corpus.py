@@ -13,8 +13,8 @@ import pytest
 from tests.flowsheet.corpus import cases as corpus
 
 from granum.core.errors import ConvergenceError
-from granum.flowsheet import Flowsheet, closures, solve
 from granum.core.packing import compiled
+from granum.flowsheet import Flowsheet, closures, solve
 from granum.flowsheet.run import Line
 from granum.flowsheet.solving import QUICK_METHOD
 from granum.flowsheet.specifications import Target

@@ -42,6 +42,7 @@ from granum.crystallization.equipment.batch import (
     Grown,
     thermal,
 )
+from granum.crystallization.equipment.beside import refuse_other_system
 from granum.crystallization.equipment.msmpr import STEADY
 from granum.crystallization.equipment.roles import (
     Roles,
@@ -131,6 +132,7 @@ def drowning_roles(vessel: Any, mixture: Mixture) -> tuple[Roles, int]:
                 "'antisolvent_solubility'."
             )
         )
+    refuse_other_system(vessel.solubility, mixture, found)
     if found.solute_fraction < 1.0 - 1e-9:
         raise CaseError(
             _(

@@ -36,6 +36,7 @@ from granum.core.kinds import (
     Volume,
 )
 from granum.core.limits import Limit
+from granum.crystallization.equipment.beside import heard_beside, keeps_solvent, solubility_beside
 from granum.crystallization.equipment.heat import StreamHeat
 from granum.crystallization.equipment.roles import (
     LARGEST,
@@ -53,7 +54,7 @@ from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.inside_charts import drawn_course
 from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, VesselVolume
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
-from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
+from granum.crystallization.population.operations import Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Packets, Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.crystals import born_share
@@ -66,6 +67,7 @@ from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated
 
 STEPS = 300
+ASKED = 50  # steps after which a liquor is asked what else would crystallize from it
 INSIDE = 1000.0  # W/(m² K) on the inside of a jacketed wall, where neither it nor a stirrer is given
 TRICKLE = 1e-12  # kg/s of solvent, so that an empty feed gives an empty product
 
@@ -193,6 +195,9 @@ class BatchVessel(Unit):
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
+    keeps_solvent: ClassVar[bool] = True
+    """Whether all the solvent stays in the vessel."""
+
     limits: ClassVar[Limits] = {
         "crowded": Limit(
             "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
@@ -212,10 +217,15 @@ class BatchVessel(Unit):
     def _time(self, feed: Stream) -> Any:
         """Time from charge to product, s."""
 
+    def _soluble(self, feed: Stream, found: Roles) -> Any:
+        """The solubility beside what else is dissolved."""
+        same = feed.liquid[found.solvent] if self.keeps_solvent and keeps_solvent(found) else None
+        return solubility_beside(self.solubility, feed.mixture, found, feed.liquid, solvent=same)
+
     def _model(self, feed: Stream, found: Roles) -> Model:
         crystal = crystal_of(feed.mixture, found, feed.temperature, self.volume_shape_factor)
         return Model(
-            self.solubility,
+            self._soluble(feed, found),
             self.growth,
             self.nucleation,
             crystal,
@@ -308,11 +318,6 @@ def present(course: Any) -> Any:
     return jnp.where(jnp.all((ratio > (1.0 + 1e-6) * saturated) & (crystals <= 0.0)), 0.0, 1.0)
 
 
-def heard(course: Course) -> Contents:
-    """The contents that a vessel had, to be asked once more outside of what is compiled."""
-    return Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent))
-
-
 class ChargedVessel(BatchVessel):
     """A batch to which nothing is added on its way."""
 
@@ -320,12 +325,19 @@ class ChargedVessel(BatchVessel):
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         """What drives the contents; one second of feed stands for the charge."""
 
+    def heard(self, feed: Stream, found: Roles, course: Course) -> None:
+        """Ask the solubility once more where its flags are heard: inside what is compiled they are lost."""
+        self.solubility(course.temperature)
+        free = course.solvent - (1.0 - found.solute_fraction) * course.crystals
+        some = (course.temperature, course.solute_per_solvent, free)
+        there = tuple(x[..., ::ASKED] for x in some)
+        heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
+
     def inside(self, feed: Stream) -> Grown:
         found = roles(feed.mixture, self.solid, self.solvent)
         model, operation = self._model(feed, found), self._operation(feed, found, self._time(feed))
         grown = self._grown(model, operation, feed, found, feed.liquid[found.solvent])
-        # once more where its flags are heard: inside what is compiled they are lost
-        model.saturated(heard(grown.course))
+        self.heard(feed, found, grown.course)
         return grown
 
 
@@ -378,8 +390,9 @@ class BatchCrystallizer(CycledVessel, ChargedVessel):
 
     Crystals that come with the feed are the seeds, together with ``seed_mass_per_solvent`` of a sieve cut,
     which is taken from the product (a share of the crystals is held back for the next batch, so that the line
-    balances). The duty is the mean one; its peak is larger. The vessel is as high as wide; without a
-    ``rotation_speed`` its stirrer turns just fast enough to keep all crystals off the bottom.
+    balances). Other salts count as in ``msmpr``. The duty is the mean one; its peak is larger. The vessel is
+    as high as wide; without a ``rotation_speed`` its stirrer turns just fast enough to keep all crystals off
+    the bottom.
     """
 
     temperature_program: Program
@@ -493,7 +506,10 @@ class JacketedBatchCrystallizer(CycledVessel, ChargedVessel):
         figures, course = self._figures(inside, outlets.product, feed), inside.course
         T, T_j = course.temperature, self.jacket_program(course.time) + jnp.zeros_like(course.time)
         wall = wall_temperature_jacket(T, T_j, self.heat_transfer_coefficient, inner)
-        cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
+        found = inside.found
+        soluble = self._soluble(feed, found)
+        free = course.solvent - (1.0 - found.solute_fraction) * course.crystals
+        cold = jnp.max(wall_undercooling(soluble, course.solute_per_solvent, wall, free))
         count = feed.slurry_volume_flow * self.cycle / self.volume
         return JacketedBatchFigures._make(
             (
@@ -536,6 +552,8 @@ class VacuumBatchCrystallizer(CycledVessel, ChargedVessel):
     """
 
     temperature_program: Program
+
+    keeps_solvent: ClassVar[bool] = False
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 

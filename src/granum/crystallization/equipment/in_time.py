@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import equinox as eqx
 import jax.numpy as jnp
 
+from granum.crystallization.equipment.beside import solubility_beside
 from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, given_off, roles, with_crystals
 from granum.crystallization.population.lagrangian import Model, react
 from granum.crystallization.population.operations import Contents
@@ -88,7 +89,7 @@ class InTime(Dynamic):
         """Temperature inside, K."""
 
     @abstractmethod
-    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream: ...
+    def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream: ...
 
     @abstractmethod
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]: ...
@@ -200,26 +201,30 @@ class InTime(Dynamic):
             densities[found.solvent],
             volume(state.liquid.at[pair].set(0.0), state.solid),
         )
-        model = Model(
-            self.solubility, self.growth, self.nucleation, crystal, other, nucleus_size=self.nucleus_size
-        )
-        surviving = eqx.tree_at(lambda m: m.nucleation, model, Surviving(self.nucleation, crystals.survival))
 
-        def forming(there: Contents, crystals: Moving) -> Any:
+        def model_in(liquid: Any, nucleation: Any) -> Model:
+            """The vessel whose liquor has what else there is of a liquid."""
+            soluble = solubility_beside(self.solubility, mixture, found, liquid, T)
+            return Model(soluble, self.growth, nucleation, crystal, other, nucleus_size=self.nucleus_size)
+
+        survived = Surviving(self.nucleation, crystals.survival)
+
+        def forming(there: Contents, liquid: Any, crystals: Moving) -> Any:
             """Crystals that form, kg/s."""
             moments = crystals.moments()
+            model = model_in(liquid, self.nucleation)
             _ratio, _saturated, rate, births = model.conditions(there, cube * moments[3])
             return cube * (3.0 * rate * moments[2] + births * self.nucleus_size**3)
 
         first, per_crystal = self._evaporation(now, found)
-        evaporation = first + per_crystal * forming(here, state.crystals)
+        evaporation = first + per_crystal * forming(here, state.liquid, state.crystals)
         gained = (entered(then) + entered(now)).at[found.solvent].add(-state.evaporation - evaporation)
         liquid = (state.liquid * lead + 0.5 * step * gained) / lag
         solid = (state.solid * lead + 0.5 * step * (then.solid + now.solid).at[found.solid].set(0.0)) / lag
         closed = Exchanged(ConstantProgram(T), liquid[found.solute], liquid[found.solvent])
-        rates = surviving.conditions(here, grains)[2:]
+        rates = model_in(state.liquid, survived).conditions(here, grains)[2:]
         made, *_rest = react(
-            surviving,
+            model_in(liquid, survived),
             closed,
             crystals,
             here,
@@ -242,7 +247,7 @@ class InTime(Dynamic):
         balance = (
             volume(now.liquid, now.solid)
             - evaporation / densities[found.solvent]
-            - shrinkage * forming(there, made)
+            - shrinkage * forming(there, liquid, made)
         )
         balance = jnp.maximum(balance, 0.0) / self.volume
         turnover = late
@@ -266,5 +271,5 @@ class InTime(Dynamic):
             gas=0.0 * now.gas,
             temperature=T,
         )
-        vapor = self._vapor(given_off(now, found, state.evaporation, T), now, found)
+        vapor = self._vapor(given_off(now, found, state.evaporation, T), product, found)
         return Crystallized(product, vapor, jnp.zeros(()))

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import equipment
+from granum.core import equipment, flags
 from granum.core.conversion import is_tracer
 from granum.core.errors import CaseError
 from granum.core.flags import unsolved
@@ -33,6 +33,14 @@ from granum.core.kinds import (
     Velocity,
 )
 from granum.core.limits import Limit
+from granum.crystallization.equipment.beside import (
+    TOLD,
+    heard_beside,
+    keeps_solvent,
+    others_per_solvent,
+    solubility_beside,
+    water_activity_beside,
+)
 from granum.crystallization.equipment.boiling import Boiling, boiling_of
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
@@ -59,6 +67,10 @@ _UNSOLVED = (
     "check feed, kinetics and evaporation."
 )
 
+LIFTED = (
+    "The boiling point is that of the solute alone in its solvent, which the other solutes raise further: "
+    "give 'elevation_linear' and 'elevation_quadratic' for this liquor."
+)
 
 WATER = COLD["cooling_water"] + COLD_APPROACH  # K, at which cooling water condenses the vapor
 
@@ -148,11 +160,15 @@ class _Continuous(Stirred, Unit):
     def _steady(self, feed: Stream, found: Roles, evaporation: Any, per_crystal: Any) -> Any:
         """The steady suspension."""
         T = self.held_at(feed.mixture)
+        left = None
+        if keeps_solvent(found) and isinstance(per_crystal, float):
+            left = feed.liquid[found.solvent] - evaporation
+        soluble = solubility_beside(self.solubility, feed.mixture, found, feed.liquid, T, left)
         return steady_msmpr(
             feed_of(feed, found),
             T,
             self.volume,
-            self.solubility,
+            soluble,
             self.growth,
             self.nucleation,
             crystal_of(feed.mixture, found, T, self.volume_shape_factor),
@@ -175,6 +191,8 @@ class _Continuous(Stirred, Unit):
         self.solubility(self.held_at(feed.mixture))
         state = self._steady(feed, found, *self._evaporation(feed, found))
         unsolved(state.converged, type(self).card, reason=_UNSOLVED)
+        there = self.held_at(feed.mixture), state.solute_per_solvent, state.solvent
+        heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         return state, found
 
     def outlets(self, inside: tuple[SteadyState, Roles], feed: Stream) -> Crystallized:
@@ -187,7 +205,7 @@ class _Continuous(Stirred, Unit):
             gas=0.0 * feed.gas,
             temperature=jnp.asarray(T, dtype=float),
         )
-        vapor = self._vapor(given_off(feed, found, state.evaporation, T), feed, found)
+        vapor = self._vapor(given_off(feed, found, state.evaporation, T), product, found)
         if found.vapor is not None:
             refuse_boiling(vapor.gas[found.vapor], product, feed, found, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
@@ -221,10 +239,11 @@ class _Continuous(Stirred, Unit):
         figures: Any,
         feed: Stream,
     ) -> dict[str, Any]:
+        dissolved = feed.liquid[inside[1].solute]
         return {
             "crowded": outlets.product.solids_volume_fraction,
             "time": figures.residence_time,
-            "present": jnp.where(inside[0].washed_out, 0.0, 1.0),
+            "present": jnp.where((figures.crystal_flow > 0.0) | ~(dissolved > 0.0), 1.0, 0.0),
             "largest": outlets.product.size_fractions[-1],
             "drying": figures.evaporation,
         } | self.stirrer_measured(outlets.product, self.volume)
@@ -243,7 +262,7 @@ class _Continuous(Stirred, Unit):
         """Temperature inside, K."""
         return self.temperature
 
-    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream:
+    def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream:
         """The vapor at the pressure over the suspension, which is that of the pure solvent by default."""
         return vapor
 
@@ -290,7 +309,9 @@ class Msmpr(_Evaporating, InTime):
 
     The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute
     balance leaves; seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their
-    water from the solvent. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
+    water from the solvent. Beside other salts that are known as ions the solubility of the library is that of
+    the mixture, and what of them would crystallize too is told; a law of one's own is taken as that of this
+    liquor. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
     fast enough to keep all crystals off the bottom. A viscosity that is not known counts there as that of
     water.
     """
@@ -336,7 +357,8 @@ class VacuumCrystallizer(_Continuous, InTime):
     adiabatic flash). Either the temperature is given and the pressure that must be held follows, or the other
     way round: the saturated mother liquor boils there. The elevation is that of the library's water activity,
     or of two coefficients over the mass fraction of solute; it counts as none at a given temperature where
-    neither is there. Further solutes and the supersaturation do not raise it. An ejector is needed where
+    neither is there. At a given temperature other salts that are known as ions raise it too; at a given
+    pressure they do not, which a note tells, nor does the supersaturation. An ejector is needed where
     cooling water condenses nothing, below 35 °C.
     """
 
@@ -368,13 +390,28 @@ class VacuumCrystallizer(_Continuous, InTime):
         assert law is not None
         return law.temperature(self.pressure, type(self).card)
 
-    def _vapor(self, vapor: Stream, feed: Stream, found: Roles) -> Stream:
-        law = self._boiling(feed.mixture)
+    def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream:
+        law = self._boiling(product.mixture)
         if law is None:
             return vapor
         if self.pressure is None:
-            return vapor.replace(pressure=jnp.minimum(law.pressure(vapor.temperature), feed.pressure))
+            T = vapor.temperature
+            activity = water_activity_beside(product.mixture, found, product.liquid, T)
+            over = law.pressure(T)
+            if activity is not None and law.coefficients is None:
+                over = law.solvent.vapor_pressure.value(T) * activity
+            return vapor.replace(pressure=jnp.minimum(over, product.pressure))
         return vapor.replace(pressure=jnp.asarray(self.pressure, dtype=float))
+
+    def inside(self, feed: Stream) -> tuple[Any, Roles]:
+        made = super().inside(feed)
+        share = others_per_solvent(made[1], feed.liquid)
+        given = self.elevation_linear is not None or self.elevation_quadratic is not None
+        known = water_activity_beside(feed.mixture, made[1], feed.liquid, feed.temperature) is not None
+        if not given and (self.pressure is not None or not known):
+            about = share > TOLD, share, "boiling_point_elevation", type(self).card.key
+            flags.record(flags.EXTRAPOLATED, *about, reason=LIFTED)
+        return made
 
     def figures(
         self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream

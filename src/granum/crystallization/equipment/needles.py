@@ -43,6 +43,7 @@ from granum.crystallization.equipment.batch import (
     present,
     thermal,
 )
+from granum.crystallization.equipment.beside import heard_beside, keeps_solvent, solubility_beside
 from granum.crystallization.equipment.in_time import Crystallized
 from granum.crystallization.equipment.msmpr import Evaporative
 from granum.crystallization.equipment.roles import (
@@ -204,8 +205,17 @@ class NeedleBatchCrystallizer(Stirred, Unit):
         found = roles(feed.mixture, self.solid, self.solvent)
         crystal = crystal_of(feed.mixture, found, feed.temperature, self.volume_shape_factor)
         volume = SuspensionVolume(feed.liquid_density)
+        same = feed.liquid[found.solvent] if keeps_solvent(found) else None
+        soluble = solubility_beside(self.solubility, feed.mixture, found, feed.liquid, solvent=same)
         needles = Needles(
-            Model(self.solubility, self.growth, self.nucleation, crystal, volume), self.growth_width
+            Model(
+                soluble,
+                self.growth,
+                self.nucleation,
+                crystal,
+                volume,
+            ),
+            self.growth_width,
         )
         solvent = feed.liquid[found.solvent]
         held = self.seed_mass_per_solvent * solvent
@@ -225,6 +235,9 @@ class NeedleBatchCrystallizer(Stirred, Unit):
         )
         # once more where its flags are heard: inside what is compiled they are lost
         self.solubility(course.temperature)
+        free = feed.liquid[found.solvent] - (1.0 - found.solute_fraction) * course.crystals
+        there = course.temperature, course.solute_per_solvent, free
+        heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         here = course.solute_per_solvent > UNDERSATURATED * course.solubility_per_solvent
         unsolved(jnp.all(here | (course.crystals <= 0.0)), type(self).card, reason=DISSOLVES)
         return GrownNeedles(course, found, held, seeds.number.shape[0])
@@ -327,9 +340,16 @@ class NeedleCrystallizer(Evaporative):
     def _steady(self, feed: Stream, found: Roles, evaporation: Any, per_crystal: Any) -> SteadyNeedles:
         T = self.held_at(feed.mixture)
         crystal = crystal_of(feed.mixture, found, T, self.volume_shape_factor)
+        left = feed.liquid[found.solvent] - evaporation if keeps_solvent(found) else None
+        soluble = solubility_beside(self.solubility, feed.mixture, found, feed.liquid, T, left)
         needles = Needles(
             Model(
-                self.solubility, self.growth, self.nucleation, crystal, None, nucleus_size=self.nucleus_size
+                soluble,
+                self.growth,
+                self.nucleation,
+                crystal,
+                None,
+                nucleus_size=self.nucleus_size,
             ),
             self.growth_width,
         )

@@ -37,6 +37,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.core.limits import Limit
+from granum.crystallization.equipment.beside import heard_beside, keeps_solvent, solubility_beside
 from granum.crystallization.equipment.in_time import Crystallized
 from granum.crystallization.equipment.roles import (
     LARGEST,
@@ -50,7 +51,7 @@ from granum.crystallization.equipment.roles import (
 )
 from granum.crystallization.kinds import Growth, Nucleation, Solubility
 from granum.crystallization.vessels.classified_bed import Bed, Upflow, steady_bed
-from granum.crystallization.vessels.crystals import crystals_at
+from granum.crystallization.vessels.crystals import crystals_at, saturation
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
@@ -137,11 +138,19 @@ class OsloCrystallizer(Unit):
         if not (is_tracer(low) or is_tracer(high)) and np.any(np.asarray(low) >= np.asarray(high)):
             raise InputError(_(_ORDER), name="void_fraction_bottom")
 
+    def _soluble(self, feed: Stream, found: Roles) -> Any:
+        left = feed.liquid[found.solvent] - self.evaporation if keeps_solvent(found) else None
+        T = self.temperature
+        return solubility_beside(self.solubility, feed.mixture, found, feed.liquid, T, left)
+
     def _saturated(self, feed: Stream, found: Roles) -> Stream:
         """The liquor of the feed at the temperature of the bed, what it cannot hold taken out."""
         entering = feed_of(feed, found)
         over = crystals_at(
-            entering.solute, entering.solvent, self.solubility(self.temperature), found.solute_fraction
+            entering.solute,
+            entering.solvent,
+            saturation(self._soluble(feed, found), self.temperature, entering.solvent),
+            found.solute_fraction,
         )
         over = jnp.maximum(over, 0.0)
         liquid = feed.liquid.at[found.solute].add(-found.solute_fraction * over)
@@ -160,7 +169,7 @@ class OsloCrystallizer(Unit):
             self.height,
             upflow,
             (self.void_fraction_top, self.void_fraction_bottom),
-            self.solubility,
+            self._soluble(feed, found),
             self.growth,
             self.nucleation,
             crystal_of(feed.mixture, found, T, self.volume_shape_factor),
@@ -168,6 +177,8 @@ class OsloCrystallizer(Unit):
         )
         unsolved(bed.found, type(self).card, reason=_NO_BED)
         unsolved(bed.converged, type(self).card, reason=_UNSOLVED)
+        there = T, bed.solute_per_solvent, bed.solvent
+        heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         return bed, found, upflow
 
     def outlets(self, inside: tuple[Bed, Roles, Upflow], feed: Stream) -> Crystallized:

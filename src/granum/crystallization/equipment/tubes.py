@@ -38,7 +38,6 @@ from granum.crystallization.equipment.batch import (
     BatchVessel,
     ChargedVessel,
     Grown,
-    heard,
     thermal,
 )
 from granum.crystallization.equipment.roles import Roles, roles
@@ -162,7 +161,7 @@ class Tube(ChargedVessel):
 
         times, shares = stays(jnp.asarray(self.tank_number_tube, dtype=float))
         course = jax.vmap(parcel)(times)
-        model.saturated(heard(course))
+        self.heard(feed, found, course)
         held, _seeds = self._seeding(feed, found)
         return Spread(course, shares, found, held)
 

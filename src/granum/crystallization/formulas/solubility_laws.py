@@ -46,6 +46,9 @@ class SolubilityLaw(eqx.Module):
 class LibrarySolubility(SolubilityLaw):
     """Solubility of a system of the materials library, over its stable crystal or over a named one.
 
+    It is that in the pure solvent; crystallizers in whose liquor other salts are dissolved correct it by
+    ``solubility_beside_salt``.
+
     >>> round(float(LibrarySolubility("potassium nitrate")(293.15)), 2)
     0.32
     """

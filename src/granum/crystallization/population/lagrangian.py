@@ -73,8 +73,8 @@ class Model(eqx.Module):
 
     Parameters
     ----------
-    solubility: kg of anhydrous solute per kg of solvent from temperature (and antisolvent fraction, where the
-        law takes it), or an ``Equilibrium``.
+    solubility: kg of anhydrous solute per kg of solvent from temperature (and antisolvent fraction, or the
+        free solvent that holds other solutes, where the law takes it), or an ``Equilibrium``.
     growth: rate of size from (solute per solvent, solubility, temperature). nucleation: the same with the
         magma density.
     crystal: the crystal. volume: what nucleation rates and magma densities are counted on.
@@ -94,13 +94,16 @@ class Model(eqx.Module):
     nucleus_size: Any = 0.0
     dispersion: GrowthDispersion | None = None
 
-    def saturated(self, contents: Contents) -> Any:
+    def saturated(self, contents: Contents, crystals: Any) -> Any:
         """Solubility at the temperature (and antisolvent fraction) of the contents."""
         if isinstance(self.solubility, Equilibrium):
             return self.solubility.saturated(contents)
         if getattr(self.solubility, "takes_antisolvent", False):
             return self.solubility(contents.temperature, contents.antisolvent / contents.solvent)
-        return self.solubility(contents.temperature)
+        if not getattr(self.solubility, "takes_solvent", False):
+            return self.solubility(contents.temperature)
+        free = contents.solvent - (1.0 - self.crystal.solute_fraction) * crystals
+        return self.solubility(contents.temperature, free)
 
     def ratio(self, contents: Contents, crystals: Any) -> Any:
         """Solute per solvent left in solution."""
@@ -126,7 +129,7 @@ class Model(eqx.Module):
 
     def conditions(self, contents: Contents, crystals: Any) -> tuple[Any, Any, Any, Any]:
         """Composition, solubility, growth rate and births of the vessel as it is."""
-        ratio, saturated = self.ratio(contents, crystals), self.saturated(contents)
+        ratio, saturated = self.ratio(contents, crystals), self.saturated(contents, crystals)
         return (
             ratio,
             saturated,
@@ -349,13 +352,13 @@ class _Step(eqx.Module):
         """
         model, crystals = self.model, self.model.crystal.mass_per_cube * self.population.cubes_after(path)
         there = self.operation.step(self.contents, self.start, self.end, self.crystals, crystals)
-        later = model.births(model.ratio(there, crystals), model.saturated(there), there, crystals)
+        later = model.births(model.ratio(there, crystals), model.saturated(there, crystals), there, crystals)
         return jnp.maximum(0.5 * (self.end - self.start) * (self.births + later), 0.0)
 
     def state(self, path: Any) -> tuple[Any, Any, Any]:
         """Composition, solubility and growth rate at the end."""
         there, crystals = self.after(path)
-        ratio, saturated = self.model.ratio(there, crystals), self.model.saturated(there)
+        ratio, saturated = self.model.ratio(there, crystals), self.model.saturated(there, crystals)
         return ratio, saturated, self.model.rate(ratio, saturated, there.temperature)
 
     def rate(self, path: Any) -> Any:

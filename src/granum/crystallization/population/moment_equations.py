@@ -56,7 +56,7 @@ def _solve(
         m = y * scale
         contents = operation.step(first, 0.0, t, 0.0, 0.0)
         crystals = k * m[3]
-        ratio, saturated = model.ratio(contents, crystals), model.saturated(contents)
+        ratio, saturated = model.ratio(contents, crystals), model.saturated(contents, crystals)
         G = model.growth(ratio, saturated, contents.temperature)
         born = model.births(ratio, saturated, contents, crystals)
         fresh = [

@@ -135,7 +135,7 @@ class Held(Operation):
         high = jnp.minimum(self.temperature_start, old.temperature + reach)
 
         def saturated(T: Any) -> Any:
-            return jnp.asarray(self.model.saturated(old._replace(temperature=T)), dtype=float)
+            return jnp.asarray(self.model.saturated(old._replace(temperature=T), crystals), dtype=float)
 
         T = old.temperature
         for _step in range(NEWTON_STEPS):

@@ -14,7 +14,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.crystallization.vessels.crystals import Crystal, crystals_at
-from granum.crystallization.vessels.msmpr import Feed
+from granum.crystallization.vessels.msmpr import Feed, saturated_liquor
 from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide
@@ -104,11 +104,17 @@ def steady_bed(
     found = some & others & (high > low)
     low, high = jnp.where(found, low, 0.5e-3), jnp.where(found, high, 1e-3)
     volume, cube = area * height, crystal.mass_per_cube
-    saturated = solubility(temperature)
     total, x = jnp.sum(feed.crystals), crystal.solute_fraction
     solute, solvent = feed.solute + x * total, feed.solvent - evaporation + (1.0 - x) * total
     highest = safe_divide(solute, jnp.maximum(solvent, 0.0))
+    saturated, at = saturated_liquor(solubility, temperature, solute, solvent, x)
     supersaturated = highest > saturated
+
+    def soluble(c: Any) -> Any:
+        """Solubility in the bed whose liquor leaves with c: on its way little of the solvent goes into
+        crystals.
+        """
+        return at(solvent - (1.0 - x) * jnp.maximum(crystals_at(solute, solvent, c, x), 0.0))
 
     def number_at(c: Any) -> Any:
         return jnp.maximum(crystals_at(solute, solvent, c, x), 0.0) / (cube * high**3)
@@ -121,10 +127,11 @@ def steady_bed(
 
     def along(weight: Callable[[Any, Any], Any], c: Any, number: Any) -> Any:
         """Integral of a weight of size and composition over the time that crystals spend at each size."""
+        limit = soluble(c)
 
         def share(size: Any) -> Any:
             there = liquor(size, c, number)
-            return weight(size, there) / jnp.maximum(growth(there, saturated, temperature), 1e-30)
+            return weight(size, there) / jnp.maximum(growth(there, limit, temperature), 1e-30)
 
         return gauss_legendre(share, low, high, order=ORDER)
 
@@ -146,15 +153,17 @@ def steady_bed(
     number = product / (cube * high**3)
     held = number * along(lambda size, _there: cube * size**3, c, number)
 
+    limit = soluble(c)
+
     def born(size: Any, there: Any) -> Any:
-        return room(size, there) * nucleation(there, saturated, temperature, held / volume)
+        return room(size, there) * nucleation(there, limit, temperature, held / volume)
 
     return Bed(
         low,
         high,
         c,
-        c / saturated - 1.0,
-        liquor(high, c, number) / saturated - 1.0,
+        c / limit - 1.0,
+        liquor(high, c, number) / limit - 1.0,
         product,
         solute - x * product,
         solvent - (1.0 - x) * product,

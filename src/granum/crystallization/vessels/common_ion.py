@@ -16,7 +16,9 @@ from granum.core.i18n import _
 from granum.core.kinds import (
     Fraction,
     MassFraction,
+    MassRatio,
     Molality,
+    PositiveNumber,
     Pressure,
     Ratio,
     Series,
@@ -46,6 +48,16 @@ class InvariantPoint(NamedTuple):
     molality_second_alone: Molality
     water_activity: WaterActivity
     pressure: Pressure
+
+
+class SolubilityBeside(NamedTuple):
+    """A solution saturated with one salt beside another."""
+
+    crystal: str
+    solubility_per_solvent: MassRatio
+    solubility_per_solvent_alone: MassRatio
+    saturation_second: PositiveNumber
+    water_activity: WaterActivity
 
 
 class ReciprocalSaturation(NamedTuple):
@@ -264,6 +276,49 @@ def invariant_point(
     water = session().fluid(SOLVENT).vapor_pressure.value(T)
     return InvariantPoint(
         one, other, float(x), float(y), float(alone[0]), float(alone[1]), activity, activity * float(water)
+    )
+
+
+@procedure(
+    source="greenberg1989; mullin2001, ch. 3",
+    title="Solubility of a salt beside another",
+    typical={"temperature": (273.15, 373.15), "solute_per_solvent_second": (0.0, 0.35)},
+)
+def solubility_beside_salt(
+    temperature: Temperature,
+    solute_per_solvent_second: MassRatio,
+    first_salt: str = "potassium chloride",
+    second_salt: str = "sodium chloride",
+) -> SolubilityBeside:
+    """How much of one salt dissolves beside another: its crystal, kilograms per kilogram of water beside so
+    much of the other and alone, and how near the other is to its own solubility.
+
+    The activities of its ions are those of the solution saturated with it alone, by Pitzer's equations; a
+    common ion lowers a solubility, other ions raise it a little. All crystallizers with the solubility of the
+    library take it beside the other salts of their liquor from here. A saturation ratio of the second salt
+    beyond one says that it would crystallize too.
+
+    >>> out = solubility_beside_salt(temperature="25 degC", solute_per_solvent_second=0.2)
+    >>> bool(out.solubility_per_solvent < 0.7 * out.solubility_per_solvent_alone)
+    True
+    """
+    pair, T = brine((first_salt, second_salt)), jnp.asarray(temperature, dtype=float)
+    first, second = jnp.asarray(pair.ions_per_salt[:2])
+    masses = pair.molar_masses
+    others = float(solute_per_solvent_second) / masses[1] * second
+    forms = [k for k, c in enumerate(pair.crystals) if c.salt == 0]
+    found = [float(pair.solubility(T, others, k)) for k in forms]
+    stable = int(np.argmin(found))
+    there = others + found[stable] * first
+    pair.heard(T, there)
+    ratios = np.asarray(pair.saturation(T, there))
+    of_second = [r for r, c in zip(ratios, pair.crystals, strict=True) if c.salt == 1]
+    return SolubilityBeside(
+        pair.crystals[forms[stable]].name,
+        found[stable] * masses[0],
+        float(pair.alone(T)[0]) * masses[0],
+        float(np.exp(max(of_second))),
+        float(pair.water_activity(T, there)),
     )
 
 

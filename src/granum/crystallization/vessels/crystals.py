@@ -53,6 +53,13 @@ def crystals_at(
     return (solute - solvent * c) / (x - (1.0 - x if bound is None else bound) * c)
 
 
+def saturation(solubility: Any, temperature: Any, solvent: Any) -> Any:
+    """Solubility by a law, which may depend on the free solvent (kg) that holds other solutes."""
+    if getattr(solubility, "takes_solvent", False):
+        return solubility(temperature, solvent)
+    return solubility(temperature)
+
+
 def born_share(seeded: Any, crystals: Any) -> Any:
     """Share of the crystals that was born, from what the seeds have become; none where there are no
     crystals.

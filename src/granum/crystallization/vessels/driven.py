@@ -44,7 +44,7 @@ from granum.crystallization.vessels.batch import (
     simulated,
     yield_of,
 )
-from granum.crystallization.vessels.crystals import Crystal
+from granum.crystallization.vessels.crystals import Crystal, saturation
 
 
 class Constant(eqx.Module):
@@ -78,11 +78,15 @@ class JacketedCourse(NamedTuple):
     step_error: Ratio
 
 
-def wall_undercooling(solubility: Any, ratio: Any, wall: Any) -> Any:
+def wall_undercooling(solubility: Any, ratio: Any, wall: Any, solvent: Any) -> Any:
     """How far the wall is below the temperature at which the liquor is saturated, by the slope of the
     solubility at the wall.
     """
-    saturated, slope = jax.vmap(jax.value_and_grad(lambda T: jnp.asarray(solubility(T), dtype=float)))(wall)
+
+    def at(T: Any, free: Any) -> Any:
+        return jnp.asarray(saturation(solubility, T, free), dtype=float)
+
+    saturated, slope = jax.vmap(jax.value_and_grad(at))(wall, solvent + jnp.zeros_like(wall))
     return (ratio - saturated) / slope
 
 
@@ -169,7 +173,7 @@ def jacketed_batch(
         course.crystals,
         exchange * (T_j - T),
         float(jnp.max(T - T_j)),
-        float(jnp.max(wall_undercooling(solubility, course.solute_per_solvent, wall))),
+        float(jnp.max(wall_undercooling(solubility, course.solute_per_solvent, wall, course.solvent))),
         mass_mean(course),
         nuclei_share(course, seeds),
         yield_of(course, solute_per_solvent, solute_fraction_of_crystal),

@@ -145,7 +145,8 @@ def steady_msmpr(
     Parameters
     ----------
     temperature: K. volume: of suspension, m³.
-    solubility: anhydrous solute per solvent from the temperature.
+    solubility: anhydrous solute per solvent from the temperature (and the free solvent, where the law takes
+        it).
     growth: rate of size from (solute per solvent, solubility, temperature); nucleation: the same with the
         magma density.
     liquor_volume: m³/s of mother liquor from its solute and its solvent (kg/s).
@@ -160,7 +161,6 @@ def steady_msmpr(
     gone.
     """
     edges = jnp.asarray(edges, dtype=float)
-    saturated = solubility(temperature)
     total = jnp.sum(feed.crystals)
     x = crystal.solute_fraction
     # A crystal takes its own water and, in an adiabatic vessel, evaporates some.
@@ -170,13 +170,15 @@ def steady_msmpr(
     liquid = feed.solvent - evaporation
     highest = safe_divide(feed.solute, jnp.maximum(liquid, 0.0))  # nothing crystallizes from an empty stream
     start_numbers, start_sizes = packets_of(feed.crystals, edges, crystal)
+    saturated, at = saturated_liquor(solubility, temperature, all_solute, all_solvent, x, bound)
 
     def state(c: Any) -> tuple[Any, ...]:
         product = crystals_at(all_solute, all_solvent, c, x, bound)
         left = all_solvent - bound * product
         flow = liquor_volume(left * c, left) + product / crystal.density
         flow = jnp.where(flow > 0, flow, 1.0)  # an empty stream
-        G = growth(c, saturated, temperature)
+        soluble = at(left)
+        G = growth(c, soluble, temperature)
         held = 1.0
         if removal is not None:  # the vessel holds another concentration than the product
             length = jnp.maximum(G * volume / flow, 1e-15)
@@ -187,7 +189,7 @@ def steady_msmpr(
             product,
             flow,
             G,
-            nucleation(c, saturated, temperature, held * product / flow),
+            nucleation(c, soluble, temperature, held * product / flow),
             held * product / flow,
         )
 
@@ -229,10 +231,11 @@ def steady_msmpr(
     made = jnp.sum(classes)
     classes = classes * jnp.where(made > 0, product / jnp.where(made > 0, made, 1.0), 0.0)
     left = all_solvent - bound * product
+    soluble = at(left)
     return SteadyState(
         c,
-        saturated,
-        c / saturated - 1.0,
+        soluble,
+        c / soluble - 1.0,
         classes,
         left * c,
         left,
@@ -246,6 +249,34 @@ def steady_msmpr(
         ~some & (highest > saturated) & (total == 0),
         found.converged,
     )
+
+
+def saturated_liquor(
+    solubility: Any, temperature: Any, solute: Any, solvent: Any, solute_fraction: Any, bound: Any = None
+) -> tuple[Any, Callable[[Any], Any]]:
+    """Composition at which the liquor left of so much solute and solvent is saturated, and the solubility as
+    a function of the free solvent: beside other solutes both change as solvent goes into crystals or vapor.
+    """
+    if not getattr(solubility, "takes_solvent", False):
+        saturated = solubility(temperature)
+        return saturated, lambda _solvent: saturated
+    x = solute_fraction
+    bound = 1.0 - x if bound is None else bound
+
+    def at(left: Any) -> Any:
+        return solubility(temperature, jnp.maximum(left, 0.0))
+
+    def over(crystals: Any) -> Any:
+        left = solvent - bound * crystals
+        return solute - x * crystals - at(left) * left
+
+    some = over(jnp.zeros(())) > 0.0
+    most = jnp.minimum(
+        solute / x, jnp.where(bound > 0.0, solvent / jnp.where(bound > 0.0, bound, 1.0), jnp.inf)
+    )
+    most = lax.stop_gradient(jnp.where(some, most, 1.0))
+    root = find_root(lambda p: jnp.where(some, over(p), p - 0.5), jnp.zeros(()), most)
+    return at(solvent - bound * jnp.where(some, root.value, 0.0)), at
 
 
 class Composition(NamedTuple):

@@ -39,7 +39,7 @@ from granum.crystallization.population.needles import Aged, Lines, Segments, pri
 from granum.crystallization.population.operations import Contents
 from granum.crystallization.vessels.batch import along, check_charge, narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal, born_share, crystals_at, ratio_left
-from granum.crystallization.vessels.msmpr import Feed, steady_composition
+from granum.crystallization.vessels.msmpr import Feed, saturated_liquor, steady_composition
 from granum.numerics.smooth import safe_divide
 
 
@@ -95,8 +95,16 @@ class _Step(Trial):
     def rates_before(self) -> list[Any]:
         return self.before
 
+    def _crystals(self, ratio: Any) -> Any:
+        """Crystals where the liquor is left with a composition, kg."""
+        there, x = self.there, self.needles.model.crystal.solute_fraction
+        return jnp.maximum(crystals_at(there.solute, there.solvent, ratio, x), 0.0)
+
+    def _saturated(self, ratio: Any) -> Any:
+        return self.needles.model.saturated(self.there, self._crystals(ratio))
+
     def rates(self, ratio: Any) -> list[Any]:
-        return self.needles.rates(ratio, self.needles.model.saturated(self.there), self.there.temperature)
+        return self.needles.rates(ratio, self._saturated(ratio), self.there.temperature)
 
     def paths(self, ratio: Any, weights: list[Any]) -> list[Any]:
         return [
@@ -107,9 +115,7 @@ class _Step(Trial):
     def born(self, ratio: Any) -> Any:
         """Crystals born: the mean of the births at both ends over the step."""
         model, there = self.needles.model, self.there
-        x = model.crystal.solute_fraction
-        crystals = jnp.maximum(crystals_at(there.solute, there.solvent, ratio, x), 0.0)
-        later = model.births(ratio, model.saturated(there), there, crystals)
+        later = model.births(ratio, self._saturated(ratio), there, self._crystals(ratio))
         return jnp.maximum(0.5 * self.span * (self.births + later), 0.0)
 
     def _fresh(self, ratio: Any, longer: Any, wider: Any) -> Segments:
@@ -170,7 +176,7 @@ def march_needles(
 
     def state(moments: Any, there: Contents) -> _State:
         crystals = needles.mass(moments)
-        ratio, saturated = model.ratio(there, crystals), model.saturated(there) + jnp.zeros(())
+        ratio, saturated = model.ratio(there, crystals), model.saturated(there, crystals) + jnp.zeros(())
         return _State(
             moments,
             ratio,
@@ -179,7 +185,7 @@ def march_needles(
         )
 
     def told(state: _State, there: Contents) -> tuple[Any, ...]:
-        saturated = model.saturated(there) + jnp.zeros(())
+        saturated = model.saturated(there, needles.mass(state.moments)) + jnp.zeros(())
         return there.temperature, state.ratio, saturated, jnp.stack(state.rates), state.moments
 
     def advance(old: _State, given: tuple[Any, Any]) -> tuple[_State, tuple[Any, ...]]:
@@ -256,24 +262,24 @@ def steady_needles(
     model = needles.model
     crystal, x = model.crystal, model.crystal.solute_fraction
     total = jnp.sum(feed.crystals)
-    saturated = model.solubility(temperature)
     liquid = feed.solvent - evaporation
     all_solute, all_solvent = feed.solute + x * total, liquid + (1.0 - x) * total
+    saturated, at = saturated_liquor(model.solubility, temperature, all_solute, all_solvent, x)
     highest = safe_divide(feed.solute, jnp.maximum(liquid, 0.0))
     slender = (entering.length + entering.longer) / (entering.width + entering.wider)
     width = (entering.beyond(jnp.zeros_like(slender)) / slender) ** (1.0 / 3.0)
     nucleus = model.nucleus_size + jnp.zeros(1)
 
-    def state(c: Any) -> tuple[Any, Any]:
+    def state(c: Any) -> tuple[Any, Any, Any]:
         product = crystals_at(all_solute, all_solvent, c, x)
         left = all_solvent - (1.0 - x) * product
         flow = liquor_volume(left * c, left) + product / crystal.density
-        return product, jnp.where(flow > 0, flow, 1.0)  # an empty stream
+        return product, jnp.where(flow > 0, flow, 1.0), at(left)  # an empty stream
 
     def there(c: Any) -> tuple[Aged, Any, Any]:
-        product, flow = state(c)
-        born = model.nucleation(c, saturated, temperature, product / flow) + jnp.zeros(())
-        longer, wider = (rate * volume / flow for rate in needles.rates(c, saturated, temperature))
+        product, flow, soluble = state(c)
+        born = model.nucleation(c, soluble, temperature, product / flow) + jnp.zeros(())
+        longer, wider = (rate * volume / flow for rate in needles.rates(c, soluble, temperature))
         grow = jnp.zeros(width.shape[0] + 1)
         lines = Aged(
             jnp.concatenate([slender * width, nucleus]),
@@ -304,15 +310,16 @@ def steady_needles(
     )
     product = jnp.where(some, state(c)[0], rest)
     left = all_solvent - (1.0 - x) * product
+    soluble = at(left)
     return SteadyNeedles(
         c,
-        saturated,
+        soluble,
         lines,
         product,
         left * c,
         left,
         evaporation + 0.0,
-        jnp.stack(needles.rates(c, saturated, temperature)),
+        jnp.stack(needles.rates(c, soluble, temperature)),
         born,
         volume / flow,
         product / flow,
