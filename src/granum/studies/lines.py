@@ -204,11 +204,11 @@ class LineSubject(Subject):
             if unit in line.units:
                 thing = line.units[unit]
                 told_too = name in {p.name for p in type(thing).card.outputs}
-                if name in {p.name for p in type(thing).card.parameters}:
+                # what is not set may be a figure of the same name, such as a pressure
+                is_open = told_too and getattr(thing, name, None) is None
+                if name in {p.name for p in type(thing).card.parameters} and not is_open:
                     value = getattr(thing, name)
-                    # what is not set may be a figure of the same name, such as a pressure
-                    if value is not None or not told_too:
-                        return value if index is None else value[index]
+                    return value if index is None else value[index]
                 if told_too:
                     value = getattr(found.solution.sheets[unit][0], name)
                     return value if index is None else value[index]
