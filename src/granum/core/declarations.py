@@ -124,7 +124,7 @@ def _declare(
         original(self, **binder[0].bind(args, given))
         if origins and sort == "lab test":
             object.__setattr__(self, "origins", tuple(origins.items()))
-            object.__setattr__(self, "notices", tuple(json.dumps(row) for row in describe(of_inputs)))
+            object.__setattr__(self, "of_fluid", tuple(json.dumps(row) for row in describe(of_inputs)))
 
     type.__setattr__(cls, "card", _LazyCard(build))
     type.__setattr__(cls, "__init__", __init__)

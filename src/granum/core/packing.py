@@ -32,7 +32,8 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
         leaves, tree = jax.tree.flatten(arguments)
         numbers = [leaf for leaf in leaves if isinstance(leaf, np.ndarray | jax.Array)]
         others = tuple(None if isinstance(leaf, np.ndarray | jax.Array) else leaf for leaf in leaves)
-        return _built(function, tree, others)(numbers)
+        shapes = tuple(number.shape for number in numbers)
+        return _built(function, tree, others, shapes)(numbers)
 
     return call
 
@@ -44,11 +45,13 @@ def as_arrays(tree: Any) -> Any:
 
 def of_jax(tree: Any) -> Any:
     """What ``compiled`` gave, as code expects it that was written for JAX."""
-    return jax.tree.map(lambda x: jnp.asarray(x) if isinstance(x, np.ndarray | np.generic) else x, tree)
+    return jax.tree.map(lambda x: jnp.asarray(x) if isinstance(x, np.ndarray) else x, tree)
 
 
 @lru_cache(maxsize=64)
-def _built(function: Callable[..., Any], tree: Any, others: tuple[Any, ...]) -> Callable[[list[Any]], Any]:
+def _built(
+    function: Callable[..., Any], tree: Any, others: tuple[Any, ...], _shapes: tuple[tuple[int, ...], ...]
+) -> Callable[[list[Any]], Any]:
     shape: list[Any] = []
 
     def flat(numbers: list[Any]) -> Any:

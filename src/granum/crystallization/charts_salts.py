@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 import plotly.graph_objects as go
@@ -23,8 +22,8 @@ from granum.crystallization.vessels.common_ion import (
     four_of,
     ion_shares,
     isotherm,
+    liquors,
     pair_of,
-    parted,
 )
 from granum.materials.activities import SLACK
 from granum.materials.brines import Brine
@@ -222,5 +221,4 @@ def _dried(salts: Brine, T: float, cation: float, anion: float) -> tuple[np.ndar
     (a, b), (c, d) = salts.charges
     ions = np.array([(1.0 - cation) / a, cation / b, (1.0 - anion) / c, anion / d])
     amounts = np.geomspace(0.5, DRIED, DRYING)[:, None] * ions
-    left = jax.vmap(lambda n: parted(salts, T, n).molalities)(jnp.asarray(amounts))
-    return tuple(ion_shares(salts, left).T)
+    return tuple(ion_shares(salts, liquors(salts, jnp.full(DRYING, T), jnp.asarray(amounts))).T)

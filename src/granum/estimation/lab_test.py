@@ -43,7 +43,7 @@ class LabTest(eqx.Module):
         default=(), init=False, static=True, repr=False, kw_only=True
     )
     """Conditions that a stated ``fluid`` gave, each with what it says of itself."""
-    notices: tuple[str, ...] = eqx.field(default=(), init=False, static=True, repr=False, kw_only=True)
+    of_fluid: tuple[str, ...] = eqx.field(default=(), init=False, static=True, repr=False, kw_only=True)
     """What was flagged of a stated ``fluid``, such as a temperature outside its data, as JSON."""
 
     @classmethod
@@ -110,7 +110,7 @@ class LabTest(eqx.Module):
             defaults=self.defaults(),
             ranges=self.ranges(),
             origins=self.stated(),
-            flags=[*map(json.loads, self.notices), *found.flags],
+            flags=[*map(json.loads, self.of_fluid), *found.flags],
         )
 
     def judged(self, found: Fit, trials: int) -> Fit:

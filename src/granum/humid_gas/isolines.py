@@ -6,16 +6,17 @@ from __future__ import annotations
 
 from typing import Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 
 import granum.humid_gas.relations as rel
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.packing import as_arrays, compiled
 from granum.humid_gas.formulas.state import state
 from granum.humid_gas.pairs import AbstractPair
 
 POINTS = 321
+BLOCK = 512
 
 
 def nice_steps(low: float, high: float, count: int) -> np.ndarray:
@@ -24,6 +25,40 @@ def nice_steps(low: float, high: float, count: int) -> np.ndarray:
     power = 10.0 ** np.floor(np.log10(raw))
     step = power * min((1.0, 2.0, 2.5, 5.0, 10.0), key=lambda m: abs(np.log(m * power / raw)))
     return np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1) * step
+
+
+@compiled
+def _enthalpy(pair: AbstractPair, P: Any, T: Any, w: Any) -> Any:
+    return rel.enthalpy_of(pair, rel.Gas(T, pair.fraction(w), jnp.zeros_like(T)), P)
+
+
+@compiled
+def _at_relative_humidity(pair: AbstractPair, P: Any, _lewis: Any, phi: Any, T: Any) -> Any:
+    return phi * rel.saturated_fraction(pair, T, P)
+
+
+@compiled
+def _at_enthalpy(pair: AbstractPair, P: Any, _lewis: Any, h: Any, T: Any) -> Any:
+    return rel.fraction_at_enthalpy(pair, T, P, h)
+
+
+@compiled
+def _at_volume(pair: AbstractPair, P: Any, _lewis: Any, v: Any, T: Any) -> Any:
+    return pair.fraction_at_volume(T, P, v)
+
+
+@compiled
+def _at_wet_bulb(pair: AbstractPair, P: Any, lewis: Any, wet: Any, T: Any) -> Any:
+    return rel.fraction_at_wet_bulb(pair, T, P, wet, lewis)
+
+
+ALONG = {
+    "relative_humidity": _at_relative_humidity,
+    "enthalpy": _at_enthalpy,
+    "specific_volume": _at_volume,
+    "wet_bulb_temperature": _at_wet_bulb,
+}
+"""Mole fractions of vapor along a line over the temperature."""
 
 
 class Isolines:
@@ -42,18 +77,7 @@ class Isolines:
         self.lewis = pair.lewis_factor()
         self.T = np.linspace(T_low, T_high, POINTS)
         self.saturated = self._humidity(rel.saturated_fraction(pair, jnp.asarray(self.T), P))
-        self._by: dict[str, Any] = {
-            "relative_humidity": jax.jit(lambda phi, T: phi * rel.saturated_fraction(pair, T, P)),
-            "enthalpy": jax.jit(lambda h, T: rel.fraction_at_enthalpy(pair, T, P, h)),
-            "specific_volume": jax.jit(lambda v, T: pair.fraction_at_volume(T, P, v)),
-            "wet_bulb_temperature": jax.jit(
-                lambda Ts, T: rel.fraction_at_wet_bulb(pair, T, P, Ts, self.lewis)
-            ),
-        }
         self._describe(states)
-        self._enthalpy = jax.jit(
-            lambda T, w: rel.enthalpy_of(pair, rel.Gas(T, pair.fraction(w), jnp.zeros_like(T)), P)
-        )
 
     def _humidity(self, y: Any) -> np.ndarray:
         y = np.asarray(y, dtype=float)
@@ -62,7 +86,10 @@ class Isolines:
     def enthalpy(self, T: np.ndarray, w: np.ndarray) -> np.ndarray:
         """J per kg of dry gas, never fog."""
         T, w = np.broadcast_arrays(np.asarray(T, dtype=float), np.asarray(w, dtype=float))
-        return np.asarray(self._enthalpy(T, w))
+        padded = np.zeros((2, BLOCK * -(-max(T.size, 1) // BLOCK)))  # lines of any length are one program
+        padded[:, : T.size] = T.ravel(), w.ravel()
+        found = _enthalpy(*as_arrays((self.pair, float(self.P))), *padded)
+        return found[: T.size].reshape(T.shape)
 
     def line(self, kind: str, value: float) -> tuple[np.ndarray, np.ndarray]:
         """Temperatures and humidities along a line, from its cold end, cut at saturation and at the
@@ -73,7 +100,8 @@ class Isolines:
             w = np.linspace(0.0, top, 41)
             return np.full_like(w, value), w
         T = self.T
-        w = self._humidity(self._by[kind](jnp.asarray(value), jnp.asarray(T)))
+        given = as_arrays((self.pair, float(self.P), self.lewis, float(value)))
+        w = self._humidity(ALONG[kind](*given, T))
         if kind == "wet_bulb_temperature":
             w = np.where(value <= T, w, np.nan)
         limit = np.minimum(self.saturated * (1.0 + 1e-9), self.w_high)

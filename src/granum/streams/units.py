@@ -14,6 +14,7 @@ from typing import Any, ClassVar, NamedTuple, final, get_type_hints
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import flags
 from granum.core.conversion import is_tracer
@@ -134,10 +135,21 @@ class Unit(eqx.Module):
         else:
             steps = recorded()
             made, noted = of_jax(_run(whole, steps is not None, *as_arrays((self, inlets))))
-            if steps is not None:
+            if self._is_refused(made):
+                made = _passed(whole, self, inlets)  # operation by operation: a formula refuses in words
+            elif steps is not None:
                 steps += noted
         flags.hand_on(made.records)
         return made
+
+    def _is_refused(self, made: Operated) -> bool:
+        """Whether a formula inside has no value for these inlets."""
+        own = getattr(type(self), "card", None)
+        impossible = any(
+            r.bit == flags.OUTSIDE_DOMAIN and (own is None or r.card != own.key) and np.any(r.mask)
+            for r in made.records
+        )
+        return impossible or not all(np.isfinite(x).all() for x in jax.tree.leaves(made.outlets))
 
     @final
     def __call__(self, *args: Stream, **inlets: Stream) -> Any:

@@ -11,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import procedure
+from granum.core.compiling import begun
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -140,13 +141,19 @@ def molalities(pair: Brine, ions: Any) -> tuple[Any, Any]:
     return m[..., own[0]] / table[0, own[0]], m[..., own[1]] / table[1, own[1]]
 
 
-@jax.jit
+@begun
 def parted(salts: Brine, temperature: Any, ions: Any) -> Equilibrium:
     """Equilibrium of ions (mol) and a kilogram of water with all crystals of the brine."""
     return salts.equilibrium(temperature, jnp.ones(()), ions, tuple(range(len(salts.crystals))))
 
 
-@jax.jit
+@begun
+def liquors(salts: Brine, temperature: Any, ions: Any) -> Any:
+    """What stays dissolved of several liquors."""
+    return jax.vmap(lambda T, m: parted(salts, T, m).molalities)(temperature, ions)
+
+
+@begun
 def _saturated(salts: Brine, temperature: Any, directions: Any) -> tuple[Any, Any]:
     """How many times ions there must be in a kilogram of water for the first crystal to form, and the
     saturation of each then.
@@ -200,10 +207,9 @@ def crystallization_path(pair: Brine, first: float, second: float, hot: float, c
     else:
         ends = np.asarray(pair.alone(jnp.asarray(hot)))
     thicker = max(float(end / m) for end, m in zip(ends, fed, strict=True) if m > 0.0)
-    left = jax.vmap(lambda T, ions: parted(pair, T, ions).molalities)
     scales = np.geomspace(1.0, max(thicker, 1.0), STAGES)
-    boiled = left(jnp.full(STAGES, hot), jnp.asarray(scales[:, None] * (fed @ pair.ions_per_salt)))
-    cooled = left(jnp.linspace(hot, cold, STAGES), jnp.tile(boiled[-1], (STAGES, 1)))
+    boiled = liquors(pair, jnp.full(STAGES, hot), jnp.asarray(scales[:, None] * (fed @ pair.ions_per_salt)))
+    cooled = liquors(pair, jnp.linspace(hot, cold, STAGES), jnp.tile(boiled[-1], (STAGES, 1)))
     x, y = fractions(pair, *molalities(pair, np.append(boiled, cooled, axis=0)))
     return Path(np.append(first, x), np.append(second, y), STAGES)
 

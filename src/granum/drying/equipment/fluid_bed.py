@@ -72,8 +72,8 @@ class FluidBedFigures(NamedTuple):
     solid_holdup: Mass
     residence_time: Time
     heat_duty: Power
-    area_coil: AreaOrZero | None  # of a bed with coils
-    heat_transfer_coefficient_coil: HeatTransferCoefficient | None
+    area_coil: AreaOrZero
+    heat_transfer_coefficient_coil: HeatTransferCoefficient
 
 
 @equipment(
@@ -190,10 +190,6 @@ class FluidBedDryer(BedDryer):
         return sized(cls(area, 200.0 * area, kinetics, **more), "mass", moisture_outlet, 1e-3, 1e7, feed, gas)
 
     @property
-    def with_coils(self) -> bool:
-        return not isinstance(self.coil_duty, float) or self.coil_duty > 0.0
-
-    @property
     def temperature_steam(self) -> Any:
         return water_boiling_temperature(self.pressure_steam)
 
@@ -201,8 +197,6 @@ class FluidBedDryer(BedDryer):
         self, inside: Through, outlets: Dried, feed: Stream, gas: Stream, **_others: Any
     ) -> FluidBedFigures:
         whole = super().figures(inside, outlets, feed, gas)
-        if not self.with_coils:
-            return FluidBedFigures(*whole, area_coil=None, heat_transfer_coefficient_coil=None)
         coefficient = BUNDLE * heat_transfer_coefficient_zabrodsky.function(
             solid_diameter(feed), feed.solid_density, gas.gas_conductivity
         )
@@ -217,12 +211,11 @@ class FluidBedDryer(BedDryer):
         self, inside: Through, outlets: Dried, figures: Any, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
         found = super().measured(inside, outlets, figures, feed, gas)
-        if figures.area_coil is not None:
-            hottest = jnp.max(inside.profile.gas_temperature)
-            there = self.coil_duty > 0.0
-            found["warmer"] = jnp.where(there, self.temperature_steam - hottest, 0.0)
-            found["grains"] = jnp.where(there, solid_diameter(feed), 0.0)
-            found["room"] = figures.area_coil / (self.area * self.height(feed))
+        hottest = jnp.max(inside.profile.gas_temperature)
+        there = jnp.asarray(self.coil_duty) > 0.0
+        found["warmer"] = jnp.where(there, self.temperature_steam - hottest, 0.0)
+        found["grains"] = jnp.where(there, solid_diameter(feed), 0.0)
+        found["room"] = figures.area_coil / (self.area * self.height(feed))
         U = gas.gas_volume_flow / self.area
         return found | {
             "fluidized": U / self.minimum_velocity(feed, gas),
