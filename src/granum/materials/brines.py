@@ -405,9 +405,10 @@ def _brine(names: tuple[str, ...], known: Library) -> Brine | None:
 def _every_salt(known: Library) -> tuple[SoluteSystem, ...]:
     """Salts of the library of ions that are known beside others."""
     ions = frozenset().union(*THETA)
-    found = []
-    for name in known.names("solute"):
-        p = ions_of(known.solute(name).formula)
-        if p and {p.cation, p.anion} <= ions and known.solute(name).solvent.name == SOLVENT:
-            found.append(known.solute(name))
-    return tuple(found)
+    return tuple(
+        known.solute(name)
+        for name, entry in sorted(known.entries("solute").items())
+        if (p := ions_of(entry.formula))
+        and {p.cation, p.anion} <= ions
+        and known.entry("fluid", entry.solvent)[0] == SOLVENT
+    )
