@@ -13,6 +13,7 @@ from granum.cases.reading import parsed
 from granum.core import registry
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
+from granum.core.stand_ins import given_by
 from granum.flowsheet.plan import Block, Link, plan
 from granum.streams.names import port_label, pretty
 
@@ -191,8 +192,9 @@ def _missing(
                 )
             )
             continue
+        given = given_by(list(table), {p.name for p in model.card.parameters})
         for p in model.card.parameters:
-            if p.required and p.name not in table:
+            if p.required and p.name not in given:
                 found.append(_("{unit}: {label} is missing.").format(unit=pretty(name), label=p.label))
     for port in opened:
         if port.needed:

@@ -5,7 +5,7 @@ knows by its radius, a standard design for its lengths.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
@@ -100,6 +100,16 @@ def stands_for(name: str, known: Container[str]) -> str | None:
         return None
     wanted = _BY_DENSITY[name][0] if name in _BY_DENSITY else name.replace("diameter", "radius")
     return wanted if wanted in known else None
+
+
+def given_by(names: Iterable[str], known: Container[str]) -> frozenset[str]:
+    """The inputs that names give, themselves or in their place.
+
+    >>> sorted(given_by(["bowl_diameter", "bowl_length"], ["bowl_radius", "bowl_length"]))
+    ['bowl_length', 'bowl_radius']
+    """
+    found = {stands_for(name, known) or name for name in names}
+    return frozenset((*found, *(_designed(known) or ()))) if "standard" in names else frozenset(found)
 
 
 def _in_a_vessel(known: Container[str]) -> bool:
