@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.core.errors import CaseError
+from granum.core.errors import ApplicabilityError, CaseError, InputError
 from granum.core.notices import describe
 from granum.crystallization.equipment.batch import BatchCrystallizer
 from granum.crystallization.equipment.beside import Thinned, solubility_beside
@@ -17,7 +17,7 @@ from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import PowerCooling
 from granum.crystallization.formulas.solubility_laws import LibrarySolubility, PolynomialSolubility
-from granum.crystallization.vessels.common_ion import pair_of, parted
+from granum.crystallization.vessels.common_ion import pair_of, parted, solubility_beside_salt
 from granum.materials.brines import brine
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
@@ -142,3 +142,29 @@ def test_a_solubility_of_another_system_is_refused(liquids):
     feed = empty(mixture, 298.15).replace(liquid=jnp.array([1.0, 0.1, 0.1]))
     with pytest.raises(CaseError, match="paracetamol in water, not of"):
         cooled("paracetamol").operate(feed=feed)
+
+
+def test_a_hydrate_has_a_solubility_or_none_beside_much_salt():
+    """Glauber's salt beside nearly saturated brine: at 5 °C Pitzer's product is met; at 30 °C the brine takes
+    its water (it melts at 18 °C there: Linke and Seidell, recalled), and it dissolves in any liquor.
+    """
+    pair = brine(("sodium sulfate", "sodium chloride"))
+    hydrate = next(k for k, c in enumerate(pair.crystals) if c.water)
+    brines = jnp.linspace(0.0, 6.0, 25)[:, None] * pair.ions_per_salt[1]
+    for kelvin, met in ((278.15, True), (303.15, False)):
+        T = jnp.asarray(kelvin)
+        found = jax.vmap(lambda others, T=T: pair.solubility(T, others, hydrate))(brines)
+        there = brines + found[:, None] * jnp.asarray(pair.crystals[hydrate].ions, dtype=float)
+        ratios = jax.vmap(lambda m, T=T: pair.saturation(T, m)[hydrate])(there)
+        if met:
+            np.testing.assert_allclose(ratios, 0.0, atol=1e-9)
+        else:
+            assert float(found[-1]) > 2.0 * float(pair.alone(T)[0])
+            assert float(ratios[0]) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_is_no_pair_or_no_solution_is_refused():
+    with pytest.raises(InputError, match="are the same salt"):
+        solubility_beside_salt("25 degC", 0.2, "NaCl", "sodium chloride")
+    with pytest.raises(ApplicabilityError, match="sodium chloride alone 359"):
+        solubility_beside_salt("25 degC", 5.0)

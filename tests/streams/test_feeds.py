@@ -52,6 +52,9 @@ def test_a_feed_may_be_a_volume() -> None:
     humid = feed(WET, temperature="60 degC", gas_flow="2 m3/s", relative_humidity="60 %")
     assert float(humid.gas_volume_flow) == pytest.approx(2.0, rel=1e-12)
     assert float(humid.gas_flow) < 2.0 * 1.0596  # of dry air at 60 °C
+    # 1.293 kg of air fill a cubic meter at 0 °C and 1 atm, however hot it is here
+    hot = feed(WET, temperature="150 degC", gas_flow="3600 Nm3/h", gas={"dry air": 1.0, "water": 0.0})
+    assert float(hot.gas_flow) == pytest.approx(1.293, rel=1e-3)
     with pytest.raises(InputError, match="'solid_flow': unit 'm3/h' does not fit"):
         feed(WET, solid_flow="1 m3/h", solid=quartz, sizes=EVEN)
 

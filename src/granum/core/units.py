@@ -114,7 +114,7 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
     """
     label = name or kind.name
     if name.endswith("_normal") or name.startswith("emission_"):  # of gas at 0 °C and 1 atm: Nm3/h, mg/Nm3
-        unit = re.sub(r"\bN\s?(?=m\s?(\^?3|³))", "", unit)
+        unit = of_normal_gas(unit) or unit
     if kind.unit == "delta_degC" and unit.strip() in ("degC", "°C", "K"):
         return value
     unit = without_substances(unit, kind.name)
@@ -230,6 +230,19 @@ def has_unit(text: str) -> bool:
     (True, True, False)
     """
     return re.search(r"[^\W\d_]|[°%]", re.sub(r"(?<=\d)[eE](?=[+-]?\d)", "", text)) is not None
+
+
+_NORMAL = re.compile(r"\bN\s?(?=m\s?(\^?3|³))")
+
+
+def of_normal_gas(text: str) -> str | None:
+    """A volume of gas at 0 °C and 1 atm without the mark of that; None of other text.
+
+    >>> of_normal_gas("1000 Nm3/h"), of_normal_gas("1000 m3/h")
+    ('1000 m3/h', None)
+    """
+    plain = _NORMAL.sub("", text)
+    return None if plain == text else plain
 
 
 def in_unit_of(text: str, unit: str) -> bool:

@@ -34,8 +34,9 @@ BESIDE = 5.0  # K within a stable range from which the solubility product goes o
 LEAST = 2e-4  # of the water there is, which crystals and vapor always leave
 FIRST = 3.0  # K of elevation, from which a boiling point is sought
 NEAR = 0.5  # of the solubility of a salt alone, from which equilibrium is sought
-PASSES = 14  # of Newton's method, where some six find a solubility beside other salts
-LEAST_SHARE, MOST_SHARE = -14.0, 1.0  # logarithm of a solubility beside others over the one alone
+# logarithms of a solubility beside others over the one alone, between which it is sought
+SHARES = np.linspace(-8.0, 1.0, 37)
+PASSES = 8  # of Newton's method between two of them
 
 
 class Mixing(NamedTuple):
@@ -245,7 +246,7 @@ class Brine(eqx.Module):
 
     def solubility(self, T: Any, others: Any, crystal: int) -> Any:
         """What dissolves of one crystal beside the ions of other salts (mol/kg), mol of its salt per kg of
-        water.
+        water; far more than alone of a hydrate that no liquor there is saturated with.
         """
         T, form = jnp.asarray(T, dtype=float), self.crystals[crystal]
         given, goal = self.coefficients(T), self._log_saturated(T)[crystal]
@@ -255,13 +256,18 @@ class Brine(eqx.Module):
             products, _log_water = self._products(given, others + jnp.exp(log_m) * part)
             return (products[crystal] - goal) / sum(form.ions)
 
-        start = jnp.log(self.alone(T)[form.salt])
+        # a hydrate has two, as more salt takes its water away, or none: then it dissolves in any liquor
+        tried = jnp.log(self.alone(T)[form.salt]) + SHARES
+        over = jax.vmap(excess)(tried) >= 0.0
+        first = jnp.argmax(over)
+        low, high = jax.lax.stop_gradient((tried[jnp.maximum(first - 1, 0)], tried[first]))
 
         def step(_pass: Any, log_m: Any) -> Any:
             value, slope = jax.jvp(excess, (log_m,), (jnp.ones_like(log_m),))
-            return jnp.clip(log_m - value / slope, start + LEAST_SHARE, start + MOST_SHARE)
+            return jnp.clip(log_m - value / slope, low, high)
 
-        return jnp.exp(jax.lax.fori_loop(0, PASSES, step, start))
+        found = jax.lax.fori_loop(0, PASSES, step, 0.5 * (low + high))
+        return jnp.exp(jnp.where(jnp.any(over), found, tried[-1]))
 
     def equilibrium(
         self, T: Any, water: Any, ions: Any, which: Sequence[int], boiling: Boiling | None = None
@@ -345,7 +351,8 @@ def find_brine(names: Sequence[str], materials: Library | None = None) -> Brine 
     """The brine of solutes by name; None where one is no salt in water whose ions are known beside the
     others.
     """
-    return _brine(tuple(names), materials or session())
+    known = materials or session()
+    return _brine(tuple(known.called(name, "solute") or name for name in names), known)
 
 
 def brine(names: Sequence[str], materials: Library | None = None) -> Brine:

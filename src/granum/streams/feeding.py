@@ -12,12 +12,13 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core.compiling import once
+from granum.core.constants import STANDARD_ATMOSPHERE, ZERO_CELSIUS
 from granum.core.conversion import convert, law_of
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
-from granum.core.units import format_number, in_unit_of, show
+from granum.core.units import format_number, in_unit_of, of_normal_gas, show
 from granum.numerics import safe_divide
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
@@ -52,7 +53,8 @@ def feed(
     ----------
     mass_flow: solid and liquid together, divided by ``solids_mass_fraction``; or ``liquid_flow`` and
         ``solid_flow``. All but the last may be a volume at the feed's temperature and pressure (m³/h, gpm,
-        cfm): of the slurry, of the liquid with what is dissolved in it, of the gas with its vapor.
+        cfm): of the slurry, of the liquid with what is dissolved in it, of the gas with its vapor, which
+        may also be one at 0 °C and 1 atm (Nm³/h).
     liquid, solid, gas: mass fractions by name; need not be given where there is one species.
     relative_humidity: of a gas, sets its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it
         where there are several.
@@ -130,7 +132,8 @@ def feed(
         spread = by_class.reshape(by_class.shape + (1,) * len(mixture.axes)) * np.ones(mixture.solid_shape)
         stream = stream.replace(solid=jnp.asarray(spread / int(np.prod(mixture.solid_shape[2:]))))
     if gas_flow is not None:
-        flow, volume = amount(gas_flow, "gas_flow")
+        normal = of_normal_gas(gas_flow) if isinstance(gas_flow, str) else None
+        flow, volume = amount(normal or gas_flow, "gas_flow")
         if relative_humidity is None:
             stream = stream.replace(gas=jnp.asarray(flow * shares("gases", gas)))
         else:
@@ -142,7 +145,9 @@ def feed(
                 where,
             )
         if volume:
-            stream = stream.replace(gas=stream.gas * safe_divide(flow, stream.gas_volume_flow))
+            standard = {"temperature": ZERO_CELSIUS, "pressure": STANDARD_ATMOSPHERE}
+            there = stream if normal is None else stream.replace(**standard)
+            stream = stream.replace(gas=stream.gas * safe_divide(flow, there.gas_volume_flow))
     if not sum(np.asarray(flows).sum() for flows in (stream.solid, stream.liquid, stream.gas)) > 0:
         raise InputError(
             _("{where}: nothing flows; give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(

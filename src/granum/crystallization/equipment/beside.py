@@ -225,7 +225,8 @@ def _heard(made: Beside, temperature: Any, ratio: Any, solvent: Any, card: Any) 
             same, system = form.salt == own.salt, known.salts[form.salt]
             of = form.branch.crystal
             owner = Owner.of_property(system.name, "solubility", system.french, of.name, of.french)
-            over = jnp.max(jnp.exp(logs[:, k] - (logs[:, made.crystal] if same else 0.0)))
+            less = logs[:, made.crystal] if same else 0.0
+            over = jnp.max(jnp.where(logs[:, k] > 0.0, jnp.exp(logs[:, k] - less), 0.0))
             reason = OTHER_FORM if same else OVER
             about = over > 1.0 + SLACK, over, "saturation_ratio", owner, 0.0, 1.0
             flags.record(flags.EXTRAPOLATED, *about, reason=reason)

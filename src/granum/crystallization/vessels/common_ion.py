@@ -12,9 +12,10 @@ import numpy as np
 
 from granum.core import procedure
 from granum.core.compiling import begun
-from granum.core.errors import ConvergenceError, InputError
+from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
+    KINDS,
     Fraction,
     MassFraction,
     MassRatio,
@@ -26,6 +27,7 @@ from granum.core.kinds import (
     Temperature,
     WaterActivity,
 )
+from granum.core.units import show
 from granum.materials.brines import SOLVENT, Brine, Equilibrium, brine
 from granum.materials.library import session
 from granum.numerics import find_root
@@ -33,6 +35,7 @@ from granum.numerics import find_root
 POINTS = 41
 STAGES = 60  # points of a path at one temperature, or between two
 SURPLUS = 3.0  # times the solubility of each salt alone, so that all are there as crystals
+SATURATED = 1e-6  # logarithm of a saturation ratio that counts as none
 # saturation is sought from so much, in mol of charge per kg of water, to so many times the solubility of the
 # salt alone that comes to its own first; far beyond, the equations turn back
 THINNEST, THICKER = 1e-3, 1.6
@@ -309,6 +312,8 @@ def solubility_beside_salt(
     True
     """
     pair, T = brine((first_salt, second_salt)), jnp.asarray(temperature, dtype=float)
+    if pair.salts[0].name == pair.salts[1].name:
+        raise InputError(_("'first_salt' and 'second_salt' are the same salt: name two."), name="second_salt")
     first, second = jnp.asarray(pair.ions_per_salt[:2])
     masses = pair.molar_masses
     others = float(solute_per_solvent_second) / masses[1] * second
@@ -318,6 +323,18 @@ def solubility_beside_salt(
     there = others + found[stable] * first
     pair.heard(T, there)
     ratios = np.asarray(pair.saturation(T, there))
+    if abs(ratios[forms[stable]]) > SATURATED:
+        first_label, second_label = (session().label(system.name) for system in pair.salts[:2])
+        raise ApplicabilityError(
+            _(
+                "Beside so much of {second} no solution is saturated with {first}: of {second} alone {most} "
+                "dissolve here."
+            ).format(
+                first=first_label,
+                second=second_label,
+                most=show(float(pair.alone(T)[1] * masses[1]), KINDS["MassRatio"]),
+            )
+        )
     of_second = [r for r, c in zip(ratios, pair.crystals, strict=True) if c.salt == 1]
     return SolubilityBeside(
         pair.crystals[forms[stable]].name,

@@ -113,6 +113,7 @@ def dynamic_viscosity_laliberte(
     ),
     output="dynamic_viscosity",
     title="Viscosity of a sucrose solution (Génotelle)",
+    fitted={"temperature": (273.15, 363.15), "solute_mass_fraction": (0.0, 0.86)},
     typical={"temperature": (293.15, 353.15), "solute_mass_fraction": (0.3, 0.8)},
 )
 def dynamic_viscosity_genotelle(
@@ -121,7 +122,8 @@ def dynamic_viscosity_genotelle(
     """Viscosity of a sucrose solution from its mole fraction, also of thick syrups.
 
     N is the mole fraction of sucrose, of 19 times the molar mass of water; meant for syrups, as water alone
-    comes out a few percent off. Recalled as Mathlouthi and Reiser quote it, the print was not opened.
+    comes out a few percent off. Recalled as Mathlouthi and Reiser quote it, the print was not opened; the
+    ranges are those of the tables of the sugar industry, recalled too.
 
     Syrup with 65 % of sucrose at 40 °C: 44.4 mPa s in the tables.
 
