@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Mapping
 from typing import Any
 
-from granum.app.case_forms import FEED_KINDS, case_value
+from granum.app.case_forms import FEED_KINDS, by_volume, case_value
 from granum.app.closed_lists import choose_within, materials
 from granum.app.forms import card_form, fields_of
 from granum.cases.alone import PHASES, case_text, tables
@@ -95,7 +95,8 @@ def _feed(
         if name in feed or name in ("temperature", "pressure"):
             usual = {"temperature": 298.15, "pressure": 101325.0}.get(name, "")
             p = Parameter(name, KINDS[kind], default=usual or None)
-            rows.append(_row(f"{port}.{name}", p, _(LABELS[name]) if name in LABELS else ""))
+            row = _row(f"{port}.{name}", p, _(LABELS[name]) if name in LABELS else "")
+            rows.append(row | by_volume(name, row["units"]))
             if name in feed:
                 values[f"{port}.{name}"] = case_value(feed[name])
     for phase, shares in PHASES.items():

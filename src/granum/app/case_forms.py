@@ -283,7 +283,8 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
     for name, kind in FEED_KINDS.items():
         if name in offered:
             default = {"temperature": 298.15, "pressure": 101325.0}.get(name)
-            rows.append(form_row(Parameter(name, KINDS[kind], default=default)))
+            row = form_row(Parameter(name, KINDS[kind], default=default))
+            rows.append(row | by_volume(name, row["units"]))
     rests = []
     for phase, species in (("liquid", "liquids"), ("solid", "solids"), ("gas", "gases")):
         names, shares = listed(mixture, species), table.get(phase)
@@ -313,6 +314,17 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         if "sizes" in table:
             values["sizes"] = case_value(table["sizes"])
     return {"parameters": rows, "values": values, "form": "totals" if totals else "phases", "rests": rests}
+
+
+def by_volume(name: str, units: list[dict[str, str]]) -> dict[str, Any]:
+    """What the field of a flow has more, where the flow may be said as a volume."""
+    if name not in ("mass_flow", "liquid_flow", "gas_flow"):
+        return {}
+    names = [*KINDS["VolumeFlow"].units, *(["Nm3/h"] if name == "gas_flow" else [])]
+    return {
+        "or_kind": "VolumeFlow",
+        "units": [*units, *({"unit": u, "label": pretty_unit(u)} for u in names)],
+    }
 
 
 def case_value(value: Any) -> str:

@@ -33,6 +33,8 @@ from granum.core.units import (
     field_units,
     format_number,
     from_si,
+    in_unit_of,
+    of_normal_gas,
     parse_unit,
     pretty_unit,
     show,
@@ -176,6 +178,9 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     if within is not None:
         return _read_interval(within, p)
     text = f"{asked.get('number', '')} {written}".strip()
+    other = KINDS.get(str(asked.get("or_kind", "")))
+    if other is not None and (found := _of_other(text, other, asked)):
+        return found
     array = _converted(text, p, bool(asked.get("several")))
     if array.size == 1 and (one := read_number(text)) is not None:
         written = one[1]  # behind a power of ten: 1.2·10⁻³ Pa s
@@ -191,6 +196,26 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
         "shown": _listed(array, unit, p.kind),
         "number": numbers,
         "unit": "" if unit == "dimensionless" else unit,
+    }
+
+
+def _of_other(text: str, kind: Kind, asked: Mapping[str, Any]) -> dict[str, Any] | None:
+    """What is typed as the other kind of quantity that a field takes, such as a flow as a volume; None where
+    it is not that.
+    """
+    name = str(asked.get("name", ""))
+    normal = of_normal_gas(text) if name.endswith("gas_flow") else None
+    one = read_number(text)
+    if one is None or not in_unit_of(normal or text, kind.unit):
+        return None
+    convert(normal or text, Parameter(_quantity(name), kind))
+    number, unit = one
+    if normal is None:
+        unit = next((u for u in kind.units if _alike(u, unit, kind)), unit)
+    return {
+        "shown": f"{format_number(number, 9)} {pretty_unit(unit)}",
+        "number": typed(number, 12),
+        "unit": unit,
     }
 
 

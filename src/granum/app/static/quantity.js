@@ -77,6 +77,7 @@ async function read(p, text, signal) {
     series: p.series || '',
     several: p.several || false,
     interval: p.interval || false,
+    or_kind: p.or_kind || '',
     units: (p.units || []).map((u) => u.unit),
   };
   return { text, ...(await ask('/api/read', asked, { signal })) };
