@@ -20,9 +20,10 @@ from granum.core import flags
 from granum.core.errors import ConvergenceError
 from granum.core.packing import _built
 from granum.flowsheet import Flowsheet, ladder
+from granum.flowsheet.findings import Fault
 from granum.flowsheet.run import Line
 from granum.flowsheet.solving import QUICK_METHOD
-from granum.flowsheet.specifications import design
+from granum.flowsheet.specifications import Target, design
 from granum.flowsheet.watching import Watch
 from granum.streams.equipment.basics import Heater, Mixer, Single, Splitter
 from granum.streams.stream import Stream, empty
@@ -273,6 +274,14 @@ def test_the_speed_of_the_machine_does_not_change_the_way(monkeypatch: pytest.Mo
         looks.append([])
         ladder._in_passes(slow, QUICK_METHOD, loop(Heater(temperature=333.15)), (), 45, None)
     assert looks[0] == looks[1] == [10, 20, 30, 40, 45]
+
+
+@pytest.mark.parametrize(("flow", "helps"), [(2.0, True), (200.0, False)])
+def test_no_other_solver_is_asked_for_what_one_specification_cannot_have(flow: float, helps: bool) -> None:
+    """1 kg/s goes round: the mixer gives 1/(1 − s), from 1 to 10 kg/s for s up to 0.9."""
+    target = Target("split.side_fraction", "mixed.mass_flow", flow, 0.0, 0.9)
+    lost = [Fault("loop", "cool", "back", "")]
+    assert ladder._may_help(loop(Heater(temperature=333.15)), (target,), lost) is helps
 
 
 def test_where_the_exact_solver_begins_is_no_part_of_its_program() -> None:

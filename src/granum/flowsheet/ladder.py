@@ -243,10 +243,11 @@ def _stagnates(looks: list[tuple[int, float]]) -> bool:
 
 def _may_help(sheet: Flowsheet, targets: tuple[Target, ...], wrong: list[Fault]) -> bool:
     """Whether another solver may find what this one has not: no loop brings a specification into reach."""
-    if not any(block.tears for block in sheet.blocks):
+    looped = any(block.tears for block in sheet.blocks)
+    if not looped or wrong[0].kind not in ("loop", "no value", "target"):
         return False
-    if wrong[0].kind != "target" or len(targets) != 1:
-        return wrong[0].kind in ("loop", "no value", "target")
+    if len(targets) != 1:
+        return True
     low, high = _reach(sheet, targets[0])
     return not np.isfinite(low + high) or min(low, high) <= targets[0].equals <= max(low, high)
 
