@@ -2,7 +2,7 @@
 or one word of the unit itself.
 
 GRANUM_RANDOM_SAMPLES tries every unit so often, with few and with many size classes; otherwise some of each
-kind, a hundred times.
+kind, a hundred times; what has random settings of its own (enantiomers, several salts) is left out.
 """
 
 from __future__ import annotations
@@ -45,7 +45,6 @@ QUICK = (
     "osmosis",
     "layers",
     "wash column",
-    "enantiomers",
     "dissolver",
     "sublimer",
     "desublimer",
@@ -54,8 +53,6 @@ QUICK = (
     "screw press",
     "gas carbon",
     "liquid carbon",
-    "salt pair",
-    "exchange",
     "hydroxide",
     "uptake",
     "baffled tube",
