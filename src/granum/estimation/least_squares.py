@@ -45,6 +45,7 @@ class Problem:
     kinds: Mapping[str, Any]
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None
     apart: bool = False
+    logarithmic: tuple[str, ...] = ()
 
     @cached_property
     def _evaluated(self) -> Evaluated:
@@ -148,6 +149,7 @@ def fit(
     kinds: Mapping[str, Any] | None = None,
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None,
     apart: bool = False,
+    logarithmic: tuple[str, ...] = (),
     card: str = "",
     flags: list[dict[str, Any]] | None = None,
     rows: Rows | None = None,
@@ -169,6 +171,8 @@ def fit(
     derived: function of the parameters whose results get intervals too.
     apart: whether each data set of a tuple ``y`` has a scatter of its own, found with the fit by restricted
         maximum likelihood (Patterson and Thompson 1971); ``sigma`` then weighs inside each set and starts.
+    logarithmic: parameters above zero whose interval is that of their logarithm, where the model bends less in
+        it (Bates and Watts 1988, ch. 6).
     rows: the rows of the data behind the points, to name a stray one.
     judged: whether to look for stray points and for a relation; of many models fitted to be ranked only the
         best needs it (``judge``).
@@ -189,6 +193,7 @@ def fit(
         group=_groups(y),
         kinds=kinds or {},
         apart=apart,
+        logarithmic=logarithmic,
     )
     first = np.array([start[n] for n in names]) / problem.scale
     _check(problem, first)
@@ -366,8 +371,8 @@ def _conclude(
     for i, n in enumerate(names):
         reach = t_reach(0.95, freedom(np.eye(len(names))[i], parts, dof))
         error = np.nan if n in held else float(np.sqrt(covariance[i, i]))
-        parameters[n] = Estimate(
-            values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error)
+        parameters[n] = Estimate(values[n], units.get(n, ""), error).within(
+            error, reach, n in problem.logarithmic
         )
     whole = problem.prediction(q)
     spread = problem.spread(problem.y)

@@ -5,7 +5,7 @@ shape.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -37,10 +37,15 @@ class Estimate:
     standard_error: float = np.nan
     interval_95: tuple[float, float] = (np.nan, np.nan)
 
-    def within(self, standard_error: float, degrees_of_freedom: float) -> Estimate:
-        """The same value with another standard error, and the interval that goes with it."""
-        reach = t_reach(0.95, degrees_of_freedom) * standard_error
-        return Estimate(self.value, self.unit, standard_error, (self.value - reach, self.value + reach))
+    def within(self, standard_error: float, reach: float, logarithmic: bool = False) -> Estimate:
+        """The same value with another standard error, and the interval of as many of them to either side, or
+        of its logarithm.
+        """
+        value, half = self.value, reach * standard_error
+        if logarithmic and value > 0.0:
+            times = float(np.exp(half / value))
+            return Estimate(value, self.unit, standard_error, (value / times, value * times))
+        return Estimate(value, self.unit, standard_error, (value - half, value + half))
 
     def as_json(self) -> dict[str, Any]:
         """Plain data; what is not known is null."""
@@ -228,6 +233,19 @@ class Fit:
 
         return profile(self, name, points)
 
+    def by_profile(self, name: str) -> Fit:
+        """The same fit with the interval of one parameter from its profile, which follows the bend of the
+        model; as before where that has no end.
+        """
+        estimate = self.parameters[name]
+        if name in self.held or not np.isfinite(estimate.standard_error):
+            return self
+        ends = self.profile(name, points=2).interval_95
+        kept = [new if np.isfinite(new) else old for new, old in zip(ends, estimate.interval_95, strict=True)]
+        return replace(
+            self, parameters=self.parameters | {name: replace(estimate, interval_95=(kept[0], kept[1]))}
+        )
+
     def bootstrap(self, count: int = 500, seed: int = 0) -> Mapping[str, np.ndarray]:
         """Parameters refitted to resampled residuals; see ``granum.estimation.intervals.bootstrap``."""
         from granum.estimation.intervals import bootstrap
@@ -293,12 +311,7 @@ def derive(
         row = np.asarray(slopes[name])
         error = float(np.sqrt(max(row @ covariance @ row, 0.0)))
         reach = t_reach(0.95, freedom(row, parts, degrees_of_freedom))
-        found[name] = Estimate(
-            float(value),
-            units.get(name, ""),
-            error,
-            (float(value) - reach * error, float(value) + reach * error),
-        )
+        found[name] = Estimate(float(value), units.get(name, "")).within(error, reach)
     return found
 
 

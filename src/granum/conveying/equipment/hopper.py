@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
@@ -119,7 +120,7 @@ class Hopper(Unit):
             "jenike1964",
             quiet=True,
         ),
-        "rate": Limit("feed over the largest discharge", 0.0, 1.0, "dimensionless", "johanson1965"),
+        "rate": Limit("largest discharge over the feed", 1.0, math.inf, "dimensionless", "johanson1965"),
         "funnel": Limit(
             "angle of the hopper over the widest with mass flow",
             0.0,
@@ -223,7 +224,7 @@ class Hopper(Unit):
         cohesive = inside.least > 0.0
         return {
             "flows": inside.least / self.outlet_width,
-            "rate": safe_divide(flow, jnp.maximum(inside.discharge, 1e-12)),
+            "rate": safe_divide(inside.discharge, flow, otherwise=1.0),
             "funnel": jnp.where(
                 cohesive, self.hopper_half_angle / jnp.maximum(inside.widest, ANGLE[0]), 0.0
             ),

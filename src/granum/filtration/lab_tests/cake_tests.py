@@ -92,7 +92,8 @@ class CompressionCell(LabTest):
             "void_fraction_unloaded": (0.0, 0.999),
             "characteristic_pressure": (1e-3 * float(p.min()), 1e2 * float(p.max())),
         }
-        return self.fitted(model, start, p, measured, bounds=bounds, apart=True)
+        bent = tuple(n for n in start if n != "void_fraction_unloaded")
+        return self.fitted(model, start, p, measured, bounds=bounds, apart=True, logarithmic=bent)
 
     def chart(self) -> Any:
         """Resistance against solids pressure on logarithmic axes, with the law."""
@@ -193,4 +194,4 @@ class DeliquoringCurve(LabTest):
             jnp.asarray(t),
             S,
             bounds={"cake_permeability": (0.0, np.inf), "irreducible_saturation": (0.0, float(S.min()))},
-        )
+        ).by_profile("irreducible_saturation")

@@ -24,6 +24,7 @@ from granum.core.kinds import (
 )
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
+from granum.estimation.results import t_reach
 
 
 @lab_test(
@@ -112,7 +113,10 @@ class SlurryJar(LabTest):
             "void_fraction": (bulk_error / (self.solid_density * bulk**2), spare),
             "dry_cake_per_filtrate": (float(self.liquid_density * np.sqrt(parts.sum())), float(known)),
         }
-        return replace(found, derived={n: e.within(*errors[n]) for n, e in found.derived.items()})
+        derived = {
+            n: e.within(errors[n][0], t_reach(0.95, errors[n][1])) for n, e in found.derived.items()
+        }
+        return replace(found, derived=derived)
 
 
 def _of_sums(above: np.ndarray, below: np.ndarray) -> tuple[float, float]:
