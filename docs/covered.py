@@ -1,6 +1,6 @@
-"""How often the 95 % intervals of every lab test contain the truth: ``python docs/covered.py`` draws 400 sheets
-of each (or of those named, keeping the others), writes ``docs/data/coverage_lab_tests.csv`` and from it the
-tables of the chapter on estimation; ``--table`` only the latter.
+"""How often the 95 % intervals of every lab test contain the truth: ``python docs/covered.py`` draws 400
+sheets of each, or of those named, writes ``docs/data/coverage_lab_tests.csv`` and from it the tables of the
+chapter on estimation; ``--table`` only the latter.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ import numpy as np
 ROOT = Path(__file__).parent.parent
 sys.path.append(str(ROOT))
 
-from tests.sharing.lab_data import data, keys
+from tests.sharing.lab_data import data, keys  # noqa: E402
 
-from granum.core import registry
-from granum.core.i18n import language
-from granum.core.units import decimal
-from granum.estimation.least_squares import solved
+from granum.core import registry  # noqa: E402
+from granum.core.i18n import language  # noqa: E402
+from granum.core.units import decimal  # noqa: E402
+from granum.estimation.least_squares import solved  # noqa: E402
 
 KEPT = ROOT / "docs" / "data" / "coverage_lab_tests.csv"
 SHEETS, SEED = 400, 2026
@@ -130,8 +130,8 @@ def written(rows: list[Covered]) -> None:
         'obtained = "calculated by docs/covered.py: sheets drawn from the model of each lab test, on the '
         'ordinary data of tests/sharing/lab_data.py, with the scatter that its fit supposes"\n'
         f'commit = "{commit}"\ndate = {datetime.date.today()}\nseed = {SEED}\n'
-        'columns = "lab_test, estimate: names in the program; points: used by the fit; sheets: those that gave '
-        'an interval; covered: those whose 95 % interval held the truth"\n'
+        'columns = "lab_test, estimate: names in the program; points: used by the fit; sheets: those '
+        'that gave an interval; covered: those whose 95 % interval held the truth"\n'
         'licence = "own work"\n',
         encoding="utf-8",
     )

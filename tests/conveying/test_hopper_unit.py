@@ -38,7 +38,7 @@ def measured(hopper: Hopper, feed) -> dict:
 
 
 def test_the_least_outlet_is_that_of_rhodes() -> None:
-    """Rhodes's worked hopper, opened earlier: 0.16 m for a flow function through (1300, 780) … (2400, 970)."""
+    """Rhodes's worked hopper, opened earlier: 0.16 m by the flow function (1300, 780) … (2400, 970)."""
     a, b = 560.0, 0.17
     hopper = Hopper(2.0, 3.0, 0.20, bulk_density=1300.0, strength_intercept=a, strength_slope=b, **FREE)
     made = hopper.operate(feed=sand())

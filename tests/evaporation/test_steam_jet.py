@@ -31,16 +31,23 @@ def test_the_ratio_is_that_of_another_program_but_for_its_sign() -> None:
 
 
 def test_a_jet_saves_a_third_of_the_steam_of_two_effects() -> None:
-    """Swenson's page, opened: sodium sulfate in two effects, 85 psig; the jet takes vapor of 19 inHg to 32 inHg
-    (absolute); 2.90 lb are evaporated per lb of steam, 1.94 without the jet.
+    """Swenson's page, opened: sodium sulfate in two effects, 85 psig; the jet takes vapor of 19 inHg to 32
+    inHg (absolute); 2.90 lb are evaporated per lb of steam, 1.94 without the jet.
     """
     # the area and the second coefficient put the first effect at 19 inHg; the last is at 4 inHg
     jet = SteamJetEvaporator(
-        "60 m2", "13.5 kPa", "108.4 kPa", pressure_motive="687 kPa", heat_transfer_coefficient_last=700.0, **WIDE
+        "60 m2",
+        "13.5 kPa",
+        "108.4 kPa",
+        pressure_motive="687 kPa",
+        heat_transfer_coefficient_last=700.0,
+        **WIDE,
     )
     made = jet.operate(feed=juice())
     assert float(made.figures.pressure_suction) == pytest.approx(64.3e3, rel=0.1)
-    plain = MultipleEffectEvaporator("60 m2", "13.5 kPa", "108.4 kPa", heat_transfer_coefficient_last=700.0, **WIDE)
+    plain = MultipleEffectEvaporator(
+        "60 m2", "13.5 kPa", "108.4 kPa", heat_transfer_coefficient_last=700.0, **WIDE
+    )
     without = plain.operate(feed=juice())
     gain = float(made.figures.steam_economy / without.figures.steam_economy)
     assert gain == pytest.approx(2.90 / 1.94, rel=0.08)
@@ -65,7 +72,7 @@ def test_mass_energy_and_the_heat_of_the_first_chest(feeding: str, effect: str) 
     streams = (out.product, out.vapor, out.condensate)
     total = sum(np.asarray(x.components) for x in streams)
     np.testing.assert_allclose(total, np.asarray(entering.components), rtol=1e-12)
-    # by hand from steam tables: motive steam of 9 bar to condensate of 1.2 bar, 2773 − 439 kJ/kg, and the vapor
+    # by hand from steam tables: motive steam of 9 bar to condensate of 1.2 bar, 2773 − 439 kJ/kg
     figures, inside = made.figures, made.inside
     sucked = float(inside.suction.condensate.mass_flow)
     motive = float(figures.steam_flow)

@@ -64,7 +64,7 @@ def together(problems: Sequence[CaseError]) -> CaseError:
 
 
 def nearest(word: str, known: Iterable[str], *, strict: bool = False) -> str | None:
-    """The known name closest to a misspelt one, if any is close; of ``strict`` ones only if letters and length
+    """The known name closest to a misspelt one, if any is close; with ``strict`` only if letters and length
     are nearly the same.
 
     >>> nearest("particle_diametre", ["particle_density", "particle_diameter"])
@@ -104,8 +104,8 @@ def unknown_name(
 ) -> InputError:
     """The one error for a name that does not exist: it lists or suggests those that do. Names that are not
     ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name.
-    ``meant`` is the known one where that is certain; ``strict`` as for ``nearest``; ``otherwise`` says what to
-    do where none was meant.
+    ``meant`` is the known one where that is certain; ``strict`` as for ``nearest``; ``otherwise`` says what
+    to do where none was meant.
     """
     known = sorted(known)
     close = meant or nearest(name, known, strict=strict)

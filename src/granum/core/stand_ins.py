@@ -115,7 +115,7 @@ def stands_for(name: str, known: Container[str]) -> str | None:
 
 
 def _radii(diameter: str) -> tuple[str, ...]:
-    """The radii that a diameter may mean: the word turned, or the wall of a bowl or basket as makers call it."""
+    """The radii that a diameter may mean: the word turned, or the wall of a bowl or basket, in order."""
     same = diameter.replace("diameter", "radius")
     turned = "_".join(reversed(same.split("_"))) if same.count("_") == 1 else same
     return (same, turned, *_WALLS.get(diameter, ()))

@@ -25,7 +25,7 @@ from granum.estimation.verdicts import Rows, no_relation_note, parameter_notes, 
 
 SCALE_ROUNDS = 50
 LEAST_SCATTER = 1e-9
-"""Of a data set that an equation has made, in the units of y; at least a thousandth of the largest beside it."""
+"""Of a data set that an equation has made, in the units of y; or a thousandth of the largest beside it."""
 
 
 @dataclass(frozen=True)
@@ -171,8 +171,8 @@ def fit(
     derived: function of the parameters whose results get intervals too.
     apart: whether each data set of a tuple ``y`` has a scatter of its own, found with the fit by restricted
         maximum likelihood (Patterson and Thompson 1971); ``sigma`` then weighs inside each set and starts.
-    logarithmic: parameters above zero whose interval is that of their logarithm, where the model bends less in
-        it (Bates and Watts 1988, ch. 6).
+    logarithmic: parameters above zero whose interval is that of their logarithm, where the model bends less
+        in it (Bates and Watts 1988, ch. 6).
     rows: the rows of the data behind the points, to name a stray one.
     judged: whether to look for stray points and for a relation; of many models fitted to be ranked only the
         best needs it (``judge``).
@@ -289,7 +289,7 @@ def _settle(problem: Problem, q: np.ndarray) -> tuple[np.ndarray, float | None, 
 def _weighed(
     problem: Problem, q: np.ndarray, width: float | None, held: dict[str, float]
 ) -> tuple[Problem, np.ndarray, float | None, dict[str, float]]:
-    """The problem with the scatter of each data set brought to what the fit leaves of it, and its solution."""
+    """The problem with the scatter of each data set as the fit leaves it, and its solution."""
     for _round in range(SCALE_ROUNDS):
         group, spare = problem.group[problem.keep], _spare(problem, q, held)
         squares = np.bincount(group, problem.residual(q) ** 2, len(spare))

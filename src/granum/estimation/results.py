@@ -59,8 +59,8 @@ class Estimate:
 
 
 class Parts(NamedTuple):
-    """Of a fit whose data sets have scatters of their own: what each adds to the covariance, and the covariance
-    of their variances, each over its variance.
+    """Of a fit whose data sets have scatters of their own: what each adds to the covariance, and the
+    covariance of their variances, each over its variance.
     """
 
     covariances: np.ndarray
@@ -322,7 +322,11 @@ def freedom(row: np.ndarray, parts: Parts | None, otherwise: float) -> float:
     if parts is None:
         return otherwise
     shares = np.einsum("i,gij,j->g", row, parts.covariances, row)
-    return float(2.0 * shares.sum() ** 2 / (shares @ parts.variances @ shares)) if shares.sum() > 0 else otherwise
+    return (
+        float(2.0 * shares.sum() ** 2 / (shares @ parts.variances @ shares))
+        if shares.sum() > 0
+        else otherwise
+    )
 
 
 def _derived(function: Any, names: tuple[str, ...], vector: Any) -> tuple[Any, Any]:

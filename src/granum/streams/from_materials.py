@@ -130,7 +130,12 @@ def _liquid(known: Library, name: str) -> Species:
                 name=name,
             )
         raise unknown_name(
-            _("Liquid"), name, there, meant=meant, strict=True, otherwise="" if meant else stated("fluid", name)
+            _("Liquid"),
+            name,
+            there,
+            meant=meant,
+            strict=True,
+            otherwise="" if meant else stated("fluid", name),
         )
     f = known.fluid(name)
     return Species(

@@ -26,9 +26,9 @@ from granum.conveying.formulas.outlets import (
     rathole_diameter_jenike,
 )
 from granum.core import equipment
-from granum.core.flags import unsolved
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Angle,
@@ -180,7 +180,9 @@ class Hopper(Unit):
         strength = self.strength_intercept + self.strength_slope * filled.stress_vertical
         hole = rathole_diameter_jenike.function(strength, rho, friction)
         least = jnp.where(mass, arch, hole)
-        stress = rho * STANDARD_GRAVITY * width / outlet_width_jenike.function(rho * STANDARD_GRAVITY, rho, held)
+        stress = (
+            rho * STANDARD_GRAVITY * width / outlet_width_jenike.function(rho * STANDARD_GRAVITY, rho, held)
+        )
         major = factor * stress
         flowability = major / jnp.maximum(self.strength_intercept + slope * major, WEAK)
         d = solid_diameter(feed)
@@ -213,9 +215,7 @@ class Hopper(Unit):
             *stresses,
         )
 
-    def measured(
-        self, inside: Flow, outlets: Single, figures: HopperFigures, feed: Stream
-    ) -> dict[str, Any]:
+    def measured(self, inside: Flow, outlets: Single, figures: HopperFigures, feed: Stream) -> dict[str, Any]:
         flow = feed.solid_flow + feed.liquid_flow
         reached = jnp.cumsum(feed.size_fractions) >= 0.95
         coarse = jnp.where(jnp.any(reached), jnp.asarray(feed.mixture.sizes)[jnp.argmax(reached)], 0.0)
@@ -225,9 +225,7 @@ class Hopper(Unit):
         return {
             "flows": inside.least / self.outlet_width,
             "rate": safe_divide(inside.discharge, flow, otherwise=1.0),
-            "funnel": jnp.where(
-                cohesive, self.hopper_half_angle / jnp.maximum(inside.widest, ANGLE[0]), 0.0
-            ),
+            "funnel": jnp.where(cohesive, self.hopper_half_angle / jnp.maximum(inside.widest, ANGLE[0]), 0.0),
             "grains": coarse / self.outlet_width,
             "packed": solid,
             "flooded": liquid / jnp.maximum(1.0 - solid, 1e-3),

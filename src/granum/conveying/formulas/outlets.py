@@ -1,4 +1,4 @@
-"""Hoppers that flow as a whole: how fast a cohesive or a fine solid leaves, and ratholes where it does not."""
+"""Outlets of hoppers: how fast a cohesive or a fine solid leaves, and ratholes where it does not."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def mass_flow_johanson(
 @formula(
     source="carleton1972",
     equation=(
-        r"\frac{4 v^2\sin\theta}{D} + \frac{15\,\rho_g^{1/3}\,\eta^{2/3}\,v^{4/3}}{\rho_s\,d_p^{5/3}} = g"
+        r"\frac{4 v^2\sin\theta}{D} + \frac{15\,\rho_g^{1/3}\,\eta^{2/3}\,v^{4/3}}{\rho_p\,d_p^{5/3}} = g"
     ),
     typical={
         "diameter": (0.05, 0.6),
@@ -112,9 +112,7 @@ def outlet_velocity_carleton(
         )
 
     # either term alone bounds the speed above; at half of the bound neither takes more than half of g
-    most = jnp.minimum(
-        0.5 * jnp.log(STANDARD_GRAVITY / inertia), 0.75 * jnp.log(STANDARD_GRAVITY / drag)
-    )
+    most = jnp.minimum(0.5 * jnp.log(STANDARD_GRAVITY / inertia), 0.75 * jnp.log(STANDARD_GRAVITY / drag))
     root = find_root(over, most - 1.0, most + 1e-6, inertia, drag)
     unconverged(root.converged)
     return jnp.exp(root.value)

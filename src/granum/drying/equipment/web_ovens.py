@@ -204,12 +204,14 @@ class AbstractWebOven(Unit):
 
 
 # of wool, the first of the webs to ignite: 205 °C, newsprint 230, cotton 230 to 266 (recalled)
-SCORCHED, FIRES = 200.0, "cote2008, table of ignition temperatures"
+SCORCHED, FIRES = 200.0, "cote2008"
 _LIMITS: Limits = {
     "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
     "given": Limit("heat that the heater of the air has to give", 0.0, math.inf, "W", "keey1978"),
     "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
-    "scorched": Limit("highest temperature of a web without its own limit", -math.inf, SCORCHED, "degC", FIRES),
+    "scorched": Limit(
+        "highest temperature of a web without its own limit", -math.inf, SCORCHED, "degC", FIRES
+    ),
 } | FLAMMABLE
 _UTILITIES: Utilities = HEATED | AREA | FANNED | {"heat_input_electricity": Utility("metaxas1983; keey1978")}
 

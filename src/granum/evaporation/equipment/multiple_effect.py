@@ -37,8 +37,8 @@ from granum.streams.units import Limits, Operated
 from granum.streams.utilities import HEAT_APPROACH, heated
 
 TOO_MUCH = (
-    "The steam jet would suck more vapor than its effect makes: give motive steam of a lower pressure, or let it "
-    "suck from an effect with a lower pressure."
+    "The steam jet would suck more vapor than its effect makes: give motive steam of a lower pressure, or "
+    "let it suck from an effect with a lower pressure."
 )
 UNSOLVED = (
     "The pressures between the effects were not found: give steam of a higher pressure, a lower pressure in "
@@ -92,8 +92,8 @@ class FromTrain(NamedTuple):
 
 
 class Suction(NamedTuple):
-    """What a steam jet takes: the place of its effect, the share of the vapor there, its condensate in the first
-    chest, the motive steam per vapor, and the heat of motive steam by mass.
+    """What a steam jet takes: the place of its effect, the share of the vapor there, its condensate in the
+    first chest, the motive steam per vapor, and the heat of motive steam by mass.
     """
 
     place: int
@@ -256,9 +256,7 @@ class _Effects(Heating):
             safe_divide(lost, inside.chest - last.pure, 1.0),
         )
 
-    def measured(
-        self, inside: Train, outlets: FromTrain, figures: Any, feed: Stream
-    ) -> dict[str, Any]:
+    def measured(self, inside: Train, outlets: FromTrain, figures: Any, feed: Stream) -> dict[str, Any]:
         behind = [inside.chest, *(made.pure for made in inside.effects[:-1])]
         differences = [hot - made.temperature for hot, made in zip(behind, inside.effects, strict=True)]
         return {
@@ -308,12 +306,11 @@ class MultipleEffectEvaporator(_Effects):
     equation=r"\dot m_m\,(h_m - h_c) + \frac{\dot m_m}{\mathrm{Ra}}\,(h_v - h_c) = \dot Q_1",
 )
 class SteamJetEvaporator(_Effects):
-    """Effects as in ``evaporation.multiple_effect_evaporator``; a jet of motive steam sucks a part of the vapor
-    of one of them, the first unless ``suction_effect`` names another, and presses it with itself into the first
-    chest: thermal vapor recompression.
+    """Thermal vapor recompression: effects as in ``evaporation.multiple_effect_evaporator``, of one of which
+    a jet of motive steam sucks a part of the vapor and presses it into the first chest.
 
-    The jet takes what El-Dessouky's fit to Power's chart lets it; motive steam is dry and saturated, and the jet
-    has no losses of heat. Of water vapor only.
+    It sucks from the first effect unless ``suction_effect`` names another, as much as El-Dessouky's fit to
+    Power's chart lets it. Motive steam is dry and saturated, and the jet loses no heat. Of water vapor only.
     """
 
     pressure_motive: Pressure = eqx.field(kw_only=True)

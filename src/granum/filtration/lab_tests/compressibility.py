@@ -159,6 +159,7 @@ class Compressibility(LabTest):
                 "void_fraction_reference": float(1.0 - np.exp(level)),
                 "compaction_exponent": float(slope) or 0.01,
             }
+
             def both(p: dict[str, Any], x: Any) -> Any:
                 level = jnp.log1p(-p["void_fraction_reference"])
                 return self._law(p, x), level + p["compaction_exponent"] * jnp.log(

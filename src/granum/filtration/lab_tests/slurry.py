@@ -37,8 +37,8 @@ from granum.estimation.results import t_reach
     ),
 )
 class SlurryJar(LabTest):
-    """Mass fraction of solids, wet to dry ratio, dry cake per filtrate and void fraction of the cake, each with
-    the interval that the jars among one another give it.
+    """Mass fraction of solids, wet to dry ratio, dry cake per filtrate and void fraction of the cake, each
+    with the interval that the jars among one another give it.
 
     Each row is one jar: its slurry, the wet cake filtered from it, that cake dried, and the volume of the wet
     cake.
@@ -113,15 +113,13 @@ class SlurryJar(LabTest):
             "void_fraction": (bulk_error / (self.solid_density * bulk**2), spare),
             "dry_cake_per_filtrate": (float(self.liquid_density * np.sqrt(parts.sum())), float(known)),
         }
-        derived = {
-            n: e.within(errors[n][0], t_reach(0.95, errors[n][1])) for n, e in found.derived.items()
-        }
+        derived = {n: e.within(errors[n][0], t_reach(0.95, errors[n][1])) for n, e in found.derived.items()}
         return replace(found, derived=derived)
 
 
 def _of_sums(above: np.ndarray, below: np.ndarray) -> tuple[float, float]:
-    """One sum over another with its standard error: a line through the origin with a variance in proportion to
-    what stands below (Cochran 1977, § 6.3).
+    """One sum over another with its standard error: a line through the origin with a variance in proportion
+    to what stands below (Cochran 1977, § 6.3).
     """
     ratio = float(above.sum() / below.sum())
     squares = np.sum((above - ratio * below) ** 2 / below) / max(len(below) - 1, 1)
