@@ -73,7 +73,7 @@ class HopperFigures(NamedTuple):
     residence_time: Time
     outlet_width_least: Distance
     discharge_largest: MassFlow
-    half_angle: Angle
+    half_angle_widest: Angle
     stress_vertical: Stress
     stress_horizontal: Stress
     stress_wall_shear: Stress
