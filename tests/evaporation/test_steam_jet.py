@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
 
 SYRUP = mixture_of(["water", "sucrose"], [], ["water"], np.geomspace(1e-5, 4e-3, 3))
-WIDE = {"heat_transfer_coefficient_first": 3000.0, "elevation_linear": 0.0, "effect_count": "2"}
+WIDE: dict[str, Any] = {"heat_transfer_coefficient_first": 3000.0, "elevation_linear": 0.0, "effect_count": "2"}
 
 
 def juice():
@@ -55,7 +57,7 @@ def test_a_jet_saves_a_third_of_the_steam_of_two_effects() -> None:
 
 
 @pytest.mark.parametrize(("feeding", "effect"), [("forward", "1"), ("backward", "2")])
-def test_mass_energy_and_the_heat_of_the_first_chest(feeding: str, effect: str) -> None:
+def test_mass_energy_and_the_heat_of_the_first_chest(feeding: Any, effect: Any) -> None:
     jet = SteamJetEvaporator(
         "40 m2",
         "20 kPa",
