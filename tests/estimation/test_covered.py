@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture
 def covered(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.syspath_prepend(str(ROOT / "docs"))
-    import covered
+    import covered  # pyright: ignore[reportMissingImports]
 
     yield covered
     sys.modules.pop("covered", None)

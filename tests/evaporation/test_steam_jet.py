@@ -15,7 +15,11 @@ from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
 
 SYRUP = mixture_of(["water", "sucrose"], [], ["water"], np.geomspace(1e-5, 4e-3, 3))
-WIDE: dict[str, Any] = {"heat_transfer_coefficient_first": 3000.0, "elevation_linear": 0.0, "effect_count": "2"}
+WIDE: dict[str, Any] = {
+    "heat_transfer_coefficient_first": 3000.0,
+    "elevation_linear": 0.0,
+    "effect_count": "2",
+}
 
 
 def juice():

@@ -113,8 +113,8 @@ class SlurryJar(LabTest):
             "void_fraction": (bulk_error / (self.solid_density * bulk**2), spare),
             "dry_cake_per_filtrate": (float(self.liquid_density * np.sqrt(parts.sum())), float(known)),
         }
-        derived = {n: e.within(errors[n][0], t_reach(0.95, errors[n][1])) for n, e in found.derived.items()}
-        return replace(found, derived=derived)
+        beside = {n: e.within(errors[n][0], t_reach(0.95, errors[n][1])) for n, e in found.derived.items()}
+        return replace(found, derived=beside)
 
 
 def _of_sums(above: np.ndarray, below: np.ndarray) -> tuple[float, float]:
