@@ -368,6 +368,14 @@ EVAPORATORS = {
         "heat_transfer_coefficient_first": 2500.0,
         "heat_transfer_coefficient_last": 1200.0,
     },
+    "evaporation.steam_jet_evaporator": BOILING
+    | {
+        "area": 1.0,
+        "pressure": "0.2 bar",
+        "pressure_steam": "1.5 bar",
+        "pressure_motive": "8 bar",
+        "effect_count": 2,
+    },
     "evaporation.recompression_evaporator": BOILING
     | {
         "area": 10.0,
