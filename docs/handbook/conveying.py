@@ -8,6 +8,7 @@ import granum as gr
 from granum.app.chapters import said
 from granum.app.shipped import examples_folder
 from granum.core.charts import DASHES, LINES, add_line, add_points, axis_title, figure
+from granum.streams.cakes import solid_diameter
 
 c, p = gr.conveying, gr.particles
 AIR, VISCOSITY = 1.2, 18e-6
@@ -125,6 +126,14 @@ factor = float(c.flow_factor_hopper(30 * DEGREE, 19 * DEGREE, angle))
 strength = float(c.critical_strength(fit["strength_intercept"].value, fit["strength_slope"].value, factor))
 outlet = float(c.outlet_width_jenike(strength, 1300.0, angle))
 slot = float(c.outlet_width_jenike(strength, 1300.0, angle, "wedge"))
+# ---- silo
+SILO = LINE.sheet.units["silo"]
+stored = LINE.units["silo"].values
+breathing = c.outlet_velocity_carleton(
+    0.4, 16 * DEGREE, float(solid_diameter(LINE.streams["caught_starch"])), 1500.0, AIR, VISCOSITY
+)
+pressed = SILO.strength_intercept + SILO.strength_slope * float(stored.stress_vertical)
+hole = float(c.rathole_diameter_jenike(pressed, SILO.bulk_density, SILO.effective_friction_angle))
 
 
 # ---- figures

@@ -161,6 +161,27 @@ area = {(w, t): wall(w, t) for w in LIFTS for t in LIFTS[w]}
 latent = float(m.water_heat_of_vaporization(pure(ATMOSPHERE)))
 by_hand = latent * 12.0 / pure(ATMOSPHERE) / 0.75
 
+# ---- jet
+TWO = {
+    "effect_count": "2",
+    "heat_transfer_coefficient_first": 3000.0,
+    "heat_transfer_coefficient_last": 700.0,
+    "elevation_linear": 0.0,
+}
+LEAN = juice(0.08, 75.0, "15 t/h")
+jet_ratio = float(
+    gr.evaporation.motive_steam_ratio_el_dessouky("687 kPa", "64.3 kPa", "108.4 kPa", "87.7 degC")
+)
+jet_with = (
+    gr.evaporation.SteamJetEvaporator("60 m2", "13.5 kPa", "108.4 kPa", pressure_motive="687 kPa", **TWO)
+    .operate(feed=LEAN)
+    .figures
+)
+jet_without = (
+    gr.evaporation.MultipleEffectEvaporator("60 m2", "13.5 kPa", "108.4 kPa", **TWO)
+    .operate(feed=LEAN)
+    .figures
+)
 # ---- scale
 CLEAN, GROWTH, STOP = 1800.0, 1e-4 / 86400.0, 6 * 3600.0
 """Clean coefficient, growth of the layer's resistance each second, time that a boil-out takes."""

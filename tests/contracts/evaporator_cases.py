@@ -9,7 +9,7 @@ import numpy as np
 from tests.contracts.unit_search import Case
 
 from granum.evaporation.equipment.evaporator import Evaporator, RecompressionEvaporator
-from granum.evaporation.equipment.multiple_effect import MultipleEffectEvaporator
+from granum.evaporation.equipment.multiple_effect import MultipleEffectEvaporator, SteamJetEvaporator
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
@@ -46,6 +46,16 @@ def evaporators(classes: int) -> dict[str, Case]:
         "recompression": made(
             lambda f, u: RecompressionEvaporator(
                 f["feed"].liquid_flow * (20.0 + 20.0 * u[0]), 1e5, 1.7e5 + 3e4 * u[2], **more(u)
+            )
+        ),
+        "steam jet": made(
+            lambda f, u: SteamJetEvaporator(
+                f["feed"].liquid_flow * (4.0 + 6.0 * u[0]),
+                1e4 + 1e4 * u[1],
+                1e5 + 1e5 * u[2],
+                pressure_motive=8e5 + 4e5 * u[1],
+                effect_count="2",
+                **more(u),
             )
         ),
         "train": made(

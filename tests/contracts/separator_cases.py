@@ -11,6 +11,7 @@ from tests.contracts.unit_search import Case
 from granum.centrifuges.equipment.decanters import ScrollDecanter, ThreePhaseDecanter
 from granum.centrifuges.equipment.liquids import DiscSeparator, NozzleSeparator, TubularSeparator
 from granum.centrifuges.equipment.purifiers import DiscPurifier
+from granum.conveying.equipment.hopper import Hopper
 from granum.conveying.equipment.pneumatic import PneumaticConveyor
 from granum.conveying.equipment.slurry import SlurryPipeline
 from granum.conveying.equipment.thick_slurry import ThickSlurryPipeline
@@ -300,6 +301,20 @@ UNITS = {
         blown,
         lambda f, a, b, c: PneumaticConveyor(
             jnp.sqrt(f["gas"].gas_volume_flow / (0.785 * (12.0 + 15.0 * a))), 40.0 * b, 10.0 * c, 4.0 * c
+        ),
+    ),
+    "hopper": (
+        dusty,
+        lambda f, a, b, c: Hopper(
+            1.0 + 4.0 * a,
+            8.0 * b,
+            0.3 + 0.5 * a,
+            0.15 + 0.9 * c,
+            400.0 + 400.0 * b,
+            0.75,
+            0.35,
+            900.0 * c,
+            0.3 * a,
         ),
     ),
     "thick slurry pipeline": (

@@ -55,6 +55,7 @@ LONG = {  # slow to compile, or solved by the code of a neighbor that is tried
     "crystallization.vacuum_batch_crystallizer",
     "crystallization.vacuum_crystallizer",
     "evaporation.multiple_effect_evaporator",
+    "evaporation.steam_jet_evaporator",
     "filtration.candle_filter",
     "filtration.deep_bed_filter",
     "filtration.nutsche",

@@ -26,6 +26,7 @@ WITHOUT = {
     "comminution.double_deck_screen",
     "comminution.screen",
     "comminution.triple_deck_screen",
+    "conveying.hopper",
     "crystallization.impurity_uptake",
     "dust.extraction_hood",
     "streams.adiabatic_humidifier",

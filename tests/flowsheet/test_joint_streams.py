@@ -368,6 +368,14 @@ EVAPORATORS = {
         "heat_transfer_coefficient_first": 2500.0,
         "heat_transfer_coefficient_last": 1200.0,
     },
+    "evaporation.steam_jet_evaporator": BOILING
+    | {
+        "area": 1.0,
+        "pressure": "0.2 bar",
+        "pressure_steam": "1.5 bar",
+        "pressure_motive": "8 bar",
+        "effect_count": 2,
+    },
     "evaporation.recompression_evaporator": BOILING
     | {
         "area": 10.0,
@@ -400,6 +408,7 @@ AS_ALONE = (  # with the values with which they open by themselves
     "centrifuges.nozzle_separator",
     "centrifuges.three_phase_decanter",
     "centrifuges.tubular_separator",
+    "conveying.hopper",
     "conveying.slurry_pipeline",
     "conveying.thick_slurry_pipeline",
     "dust.air_filter",
@@ -470,6 +479,7 @@ SPECIAL = {
     "streams.fan": {"feed": "dusty air"},
     "conveying.pneumatic_conveyor": {"feed": "cake", "gas": "wet air"},
     "streams.pump": {"feed": "slurry"},
+    "conveying.hopper": {"feed": "cake"},
     "conveying.slurry_pipeline": {"feed": "slurry"},
     "conveying.thick_slurry_pipeline": {"feed": "slurry"},
     "dust.air_filter": {"feed": "dusty air"},

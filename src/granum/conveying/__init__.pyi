@@ -1,5 +1,10 @@
 """Pneumatic and hydraulic conveying, hoppers and silos."""
 
+from granum.conveying.equipment.hopper import (
+    Flow as Flow,
+    Hopper as Hopper,
+    HopperFigures as HopperFigures,
+)
 from granum.conveying.equipment.pneumatic import (
     Blown as Blown,
     Conveyed as Conveyed,
@@ -38,6 +43,11 @@ from granum.conveying.formulas.non_newtonian import (
     pressure_gradient_power_law as pressure_gradient_power_law,
     reynolds_critical_ryan_johnson as reynolds_critical_ryan_johnson,
     reynolds_metzner_reed as reynolds_metzner_reed,
+)
+from granum.conveying.formulas.outlets import (
+    mass_flow_johanson as mass_flow_johanson,
+    outlet_velocity_carleton as outlet_velocity_carleton,
+    rathole_diameter_jenike as rathole_diameter_jenike,
 )
 from granum.conveying.formulas.pipes import (
     friction_factor_churchill as friction_factor_churchill,

@@ -63,8 +63,9 @@ def together(problems: Sequence[CaseError]) -> CaseError:
     return CaseError("\n".join(told), **problems[0].details)
 
 
-def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known name closest to a misspelt one, if any is close.
+def nearest(word: str, known: Iterable[str], *, strict: bool = False) -> str | None:
+    """The known name closest to a misspelt one, if any is close; with ``strict`` only if letters and length
+    are nearly the same.
 
     >>> nearest("particle_diametre", ["particle_density", "particle_diameter"])
     'particle_diameter'
@@ -78,7 +79,7 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
         return None
     known = list(known)
     whole = [name for name in known if len(word) >= _TELLING and _within(word, name)]
-    for cutoff in (0.8, 0.55):
+    for cutoff in (0.8,) if strict else (0.8, 0.55):
         found = get_close_matches(word, known, n=1, cutoff=cutoff)
         if found or (whole and cutoff == 0.8):
             return found[0] if found else min(whole, key=len)
@@ -98,13 +99,16 @@ def unknown_name(
     *,
     quantities: bool = True,
     meant: str | None = None,
+    strict: bool = False,
+    otherwise: str = "",
 ) -> InputError:
     """The one error for a name that does not exist: it lists or suggests those that do. Names that are not
     ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name.
-    ``meant`` is the known one where that is certain.
+    ``meant`` is the known one where that is certain; ``strict`` as for ``nearest``; ``otherwise`` says what
+    to do where none was meant.
     """
     known = sorted(known)
-    close = meant or nearest(name, known)
+    close = meant or nearest(name, known, strict=strict)
     name = name if len(name) <= _LONGEST_NAME else name[:_LONGEST_NAME] + "…"
     place = f" {where.strip()}" if where else ""
     message = _("{what} '{name}' is not known{place}.").format(what=what, name=name, place=place)
@@ -115,6 +119,8 @@ def unknown_name(
         if len(known) > _MOST_NAMES:
             shown += " " + _("… and {count} more").format(count=len(known) - _MOST_NAMES)
         message += " " + _("Known names: {names}.").format(names=shown)
+    if otherwise and not close:
+        message += f" {otherwise}"
     return InputError(message, name=name, did_you_mean=close, as_it_is=None if quantities else True)
 
 

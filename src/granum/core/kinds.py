@@ -25,6 +25,7 @@ class Kind:
     lower, upper: hard bounds, SI. Outside them the quantity has no meaning.
     open_lower, open_upper: whether the bound itself is excluded.
     display: units offered in forms and used to print, the first being the usual one.
+    per_volume: of a flow of something known, kg/m³, so that it may be said as a volume.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Kind:
     open_lower: bool = False
     open_upper: bool = False
     display: tuple[str, ...] = ()
+    per_volume: float | None = None
 
     def contains(self, value: Any) -> Any:
         """Whether a value (scalar or array) lies inside the hard bounds. NaN does not."""

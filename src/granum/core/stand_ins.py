@@ -39,6 +39,14 @@ _BY_DENSITY = {  # name: the input it stands for, its kind, the power of the den
 }
 
 
+_WALLS = {
+    "diameter": ("bowl_radius",),
+    "inner_diameter": ("bowl_radius",),
+    "diameter_inner": ("bowl_radius",),
+    "bowl_diameter": ("radius_outer",),
+    "basket_diameter": ("radius_outer", "bowl_radius"),
+}
+
 _DESIGNS: dict[tuple[str, ...], Callable[[str, Any], Mapping[str, Any]]] = {}
 
 _ROUND: set[tuple[str, ...]] = set()
@@ -84,6 +92,8 @@ def stands_for(name: str, known: Container[str]) -> str | None:
 
     >>> stands_for("bowl_diameter", ["bowl_radius", "bowl_length"])
     'bowl_radius'
+    >>> stands_for("outer_diameter", ["radius_inner", "radius_outer"])
+    'radius_outer'
     """
     if name in known:
         return None
@@ -98,8 +108,17 @@ def stands_for(name: str, known: Container[str]) -> str | None:
         return "superficial_velocity"
     if name in _BY_DIAMETER:
         return None
-    wanted = _BY_DENSITY[name][0] if name in _BY_DENSITY else name.replace("diameter", "radius")
-    return wanted if wanted in known else None
+    if name in _BY_DENSITY:
+        wanted = _BY_DENSITY[name][0]
+        return wanted if wanted in known else None
+    return next((wanted for wanted in _radii(name) if wanted in known), None)
+
+
+def _radii(diameter: str) -> tuple[str, ...]:
+    """The radii that a diameter may mean: the word turned, or the wall of a bowl or basket, in order."""
+    same = diameter.replace("diameter", "radius")
+    turned = "_".join(reversed(same.split("_"))) if same.count("_") == 1 else same
+    return (same, turned, *_WALLS.get(diameter, ()))
 
 
 def given_by(names: Iterable[str], known: Container[str]) -> frozenset[str]:

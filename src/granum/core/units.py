@@ -9,6 +9,7 @@ import os
 import re
 from collections.abc import Iterable
 from contextvars import ContextVar
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -118,6 +119,8 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
     if kind.unit == "delta_degC" and unit.strip() in ("degC", "°C", "K"):
         return value
     unit = without_substances(unit, kind.name)
+    if kind.per_volume is not None and same_dimension(unit, "m^3/s"):
+        return to_si(value, unit, replace(kind, unit="m^3/s", per_volume=None), name) * kind.per_volume
     try:
         factor, offset = _conversion(unit, kind)
     except UnitError as problem:

@@ -19,11 +19,13 @@ from granum.core.kinds import kind_of
 from granum.estimation.diagnostics import diagnose
 from granum.estimation.evaluation import Evaluated
 from granum.estimation.losses import LeastSquares, Loss
-from granum.estimation.results import Estimate, Fit, derive, t_reach
+from granum.estimation.results import Estimate, Fit, Parts, derive, freedom, t_reach
 from granum.estimation.searches import EXACT, Search
 from granum.estimation.verdicts import Rows, no_relation_note, parameter_notes, stray_note
 
 SCALE_ROUNDS = 50
+LEAST_SCATTER = 1e-9
+"""Of a data set that an equation has made, in the units of y; or a thousandth of the largest beside it."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,8 @@ class Problem:
     group: np.ndarray
     kinds: Mapping[str, Any]
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None
+    apart: bool = False
+    logarithmic: tuple[str, ...] = ()
 
     @cached_property
     def _evaluated(self) -> Evaluated:
@@ -59,7 +63,7 @@ class Problem:
         """Their derivatives with respect to the scaled parameters."""
         return self._evaluated(q)[1][self.keep] / self.sigma[self.keep][:, None]
 
-    def variant(self, **changes: np.ndarray) -> Problem:
+    def variant(self, **changes: Any) -> Problem:
         """The same model with other data ``y`` or standard deviations ``sigma``; nothing is compiled
         again.
         """
@@ -144,6 +148,8 @@ def fit(
     loss: Loss | None = None,
     kinds: Mapping[str, Any] | None = None,
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None,
+    apart: bool = False,
+    logarithmic: tuple[str, ...] = (),
     card: str = "",
     flags: list[dict[str, Any]] | None = None,
     rows: Rows | None = None,
@@ -163,6 +169,10 @@ def fit(
     loss: ``LeastSquares()``, ``Huber()`` or ``SoftL1()``.
     kinds: kinds of parameters and derived quantities by name, for their units.
     derived: function of the parameters whose results get intervals too.
+    apart: whether each data set of a tuple ``y`` has a scatter of its own, found with the fit by restricted
+        maximum likelihood (Patterson and Thompson 1971); ``sigma`` then weighs inside each set and starts.
+    logarithmic: parameters above zero whose interval is that of their logarithm, where the model bends less
+        in it (Bates and Watts 1988, ch. 6).
     rows: the rows of the data behind the points, to name a stray one.
     judged: whether to look for stray points and for a relation; of many models fitted to be ranked only the
         best needs it (``judge``).
@@ -182,12 +192,25 @@ def fit(
         derived=derived,
         group=_groups(y),
         kinds=kinds or {},
+        apart=apart,
+        logarithmic=logarithmic,
     )
     first = np.array([start[n] for n in names]) / problem.scale
     _check(problem, first)
-    q, width, held = _settle(problem, first)
-    found = _conclude(problem, q, width, held, card, list(flags or []))
+    found = solved(problem, first, card, list(flags or []))
     return judge(found, rows or Rows()) if judged else found
+
+
+def solved(
+    problem: Problem, first: np.ndarray, card: str = "", flags: list[dict[str, Any]] | None = None
+) -> Fit:
+    """The fit of a problem from scaled first values, without diagnostics: of a ``variant`` with other data
+    nothing is compiled again.
+    """
+    q, width, held = _settle(problem, first)
+    if problem.apart:
+        problem, q, width, held = _weighed(problem, q, width, held)
+    return _conclude(problem, q, width, held, card, flags or [])
 
 
 def judge(found: Fit, rows: Rows, trials: int = 1) -> Fit:
@@ -263,6 +286,33 @@ def _settle(problem: Problem, q: np.ndarray) -> tuple[np.ndarray, float | None, 
         held |= reached
 
 
+def _weighed(
+    problem: Problem, q: np.ndarray, width: float | None, held: dict[str, float]
+) -> tuple[Problem, np.ndarray, float | None, dict[str, float]]:
+    """The problem with the scatter of each data set as the fit leaves it, and its solution."""
+    for _round in range(SCALE_ROUNDS):
+        group, spare = problem.group[problem.keep], _spare(problem, q, held)
+        squares = np.bincount(group, problem.residual(q) ** 2, len(spare))
+        sizes = np.sqrt(squares / np.maximum(spare, 0.5))
+        # residuals are in units of sigma; the floor is in those of y
+        unit = np.array([np.mean(problem.sigma[problem.group == g]) for g in range(len(spare))])
+        least = max(LEAST_SCATTER, 1e-3 * float(np.max(sizes * unit)))
+        sizes = np.maximum(sizes, least / unit)
+        problem = problem.variant(sigma=problem.sigma * sizes[problem.group])
+        q, width, held = _settle(problem, q)
+        if np.all(np.abs(sizes - 1.0) < 1e-3):
+            break
+    return problem, q, width, held
+
+
+def _spare(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> np.ndarray:
+    """Points of each data set less what the free parameters take of it: the trace of its leverages."""
+    group = problem.group[problem.keep]
+    free = np.array([n not in held for n in problem.names])
+    basis = np.linalg.svd(problem.jacobian(q)[:, free], full_matrices=False)[0]
+    return np.bincount(group) - np.bincount(group, np.sum(basis**2, axis=1))
+
+
 def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[np.ndarray, float | None]:
     q, outcome = problem.solve(q, fixed=held)
     width = None
@@ -312,13 +362,17 @@ def _conclude(
         )
     else:
         covariance[np.ix_(free, free)] = np.nan
+    parts = None
+    if problem.apart and condition < 1e12:
+        parts, more = _parts(problem, q, held, covariance)
+        covariance = covariance + more
     units = {n: kind.unit for n, annotation in kinds.items() if (kind := kind_of(annotation))}
-    reach = t_reach(0.95, dof)
     parameters = {}
     for i, n in enumerate(names):
+        reach = t_reach(0.95, freedom(np.eye(len(names))[i], parts, dof))
         error = np.nan if n in held else float(np.sqrt(covariance[i, i]))
-        parameters[n] = Estimate(
-            values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error)
+        parameters[n] = Estimate(values[n], units.get(n, ""), error).within(
+            error, reach, n in problem.logarithmic
         )
     whole = problem.prediction(q)
     spread = problem.spread(problem.y)
@@ -335,7 +389,7 @@ def _conclude(
         "condition": condition,
     }
     flags += parameter_notes(parameters, covariance, held, condition, problem, card)
-    found = {} if problem.derived is None else derive(problem.derived, values, covariance, dof, units)
+    found = {} if problem.derived is None else derive(problem.derived, values, covariance, dof, units, parts)
     return Fit(
         card,
         parameters,
@@ -347,7 +401,28 @@ def _conclude(
         flags,
         problem,
         tuple(held),
+        parts=parts,
     )
+
+
+def _parts(
+    problem: Problem, q: np.ndarray, held: Mapping[str, float], covariance: np.ndarray
+) -> tuple[Parts, np.ndarray]:
+    """What the scatter of each data set adds to the covariance, and how much more there is because weights
+    were made of scatters that are not known exactly (Kenward and Roger 1997, eq. 3 to 5).
+    """
+    group = problem.group[problem.keep]
+    slopes = problem.jacobian(q) / problem.scale * np.array([n not in held for n in problem.names])
+    weights = np.stack([slopes[group == g].T @ slopes[group == g] for g in range(group.max() + 1)])
+    taken = covariance @ weights
+    both = np.einsum("gij,hji->gh", taken, taken)
+    own = np.bincount(group) - 2.0 * np.trace(taken, axis1=1, axis2=2)
+    variances = 2.0 * np.linalg.inv(both + np.diag(own))
+    lost = np.einsum("gg,gij->ij", variances, weights) - np.einsum(
+        "gh,gij,hjk->ik", variances, weights, covariance @ weights
+    )
+    parts = Parts(taken @ covariance, variances)
+    return parts, 2.0 * covariance @ lost @ covariance
 
 
 def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int) -> float:

@@ -5,7 +5,7 @@ shape.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -37,6 +37,16 @@ class Estimate:
     standard_error: float = np.nan
     interval_95: tuple[float, float] = (np.nan, np.nan)
 
+    def within(self, standard_error: float, reach: float, logarithmic: bool = False) -> Estimate:
+        """The same value with another standard error, and the interval of as many of them to either side, or
+        of its logarithm.
+        """
+        value, half = self.value, reach * standard_error
+        if logarithmic and value > 0.0:
+            times = float(np.exp(half / value))
+            return Estimate(value, self.unit, standard_error, (value / times, value * times))
+        return Estimate(value, self.unit, standard_error, (value - half, value + half))
+
     def as_json(self) -> dict[str, Any]:
         """Plain data; what is not known is null."""
         low, high = map(_number, self.interval_95)
@@ -46,6 +56,15 @@ class Estimate:
             "standard_error": _number(self.standard_error),
             "interval_95": [low, high],
         }
+
+
+class Parts(NamedTuple):
+    """Of a fit whose data sets have scatters of their own: what each adds to the covariance, and the
+    covariance of their variances, each over its variance.
+    """
+
+    covariances: np.ndarray
+    variances: np.ndarray
 
 
 class Band(NamedTuple):
@@ -85,6 +104,7 @@ class Fit:
     defaults: conditions and choices that were not given, with the values taken, as plain data by name.
     ranges: lowest and highest value of each condition and column that the estimates hold for, by name.
     origins: conditions that a stated fluid gave, each with its value and what the fluid says of itself.
+    parts: of the covariance, by data set, where each has a scatter of its own.
     """
 
     card: str
@@ -101,6 +121,7 @@ class Fit:
     defaults: Mapping[str, Any] = field(default_factory=dict)
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     origins: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    parts: Parts | None = field(default=None, repr=False)
 
     def __getitem__(self, name: str) -> Estimate:
         found = {**self.derived, **self.parameters}
@@ -132,7 +153,7 @@ class Fit:
         variance = jnp.einsum("ij,jk,ik->i", slope, self.covariance[np.ix_(order, order)], slope)
         if observation:
             variance = variance + self.statistics["residual_standard_deviation"] ** 2
-        reach = np.asarray(jnp.sqrt(variance)) * t_reach(level, self.statistics["degrees_of_freedom"])
+        reach = np.asarray(jnp.sqrt(variance)) * t_reach(level, self.degrees_of_freedom)
         return Band(np.asarray(value), np.asarray(value) - reach, np.asarray(value) + reach)
 
     def derive(
@@ -140,8 +161,17 @@ class Fit:
     ) -> dict[str, Estimate]:
         """Quantities computed from the parameters, with intervals by the delta method."""
         return derive(
-            function, self.values, self.covariance, self.statistics["degrees_of_freedom"], units or {}
+            function, self.values, self.covariance, self.degrees_of_freedom, units or {}, self.parts
         )
+
+    @property
+    def degrees_of_freedom(self) -> float:
+        """On which the covariance is known: of the least known parameter where data sets have scatters of
+        their own.
+        """
+        spare = self.statistics["degrees_of_freedom"]
+        rows = np.eye(len(self.parameters))
+        return min((freedom(row, self.parts, spare) for row in rows), default=spare)
 
     def at_normal(self, normal: np.ndarray, shrink: np.ndarray) -> dict[str, np.ndarray]:
         """Parameters for standard normal numbers (n, parameters) and the square root of chi² per degree of
@@ -164,7 +194,7 @@ class Fit:
         """Draws from the joint distribution of the parameters (multivariate t), kept inside their bounds."""
         rng = np.random.default_rng(seed)
         center = np.array(list(self.values.values()))
-        dof = self.statistics["degrees_of_freedom"]
+        dof = self.degrees_of_freedom
         low, high = (
             np.array(side) for side in zip(*(self.problem.bounds[n] for n in self.values), strict=True)
         )
@@ -189,7 +219,7 @@ class Fit:
                 raise unknown_name(_("Parameter"), name, names)
         pair = [names.index(one), names.index(other)]
         angle = np.linspace(0.0, 2.0 * np.pi, points)
-        reach = np.sqrt(2.0 * scipy.stats.f.ppf(level, 2, self.statistics["degrees_of_freedom"]))
+        reach = np.sqrt(2.0 * scipy.stats.f.ppf(level, 2, self.degrees_of_freedom))
         x, y = (
             reach
             * _square_root(self.covariance[np.ix_(pair, pair)])
@@ -202,6 +232,19 @@ class Fit:
         from granum.estimation.intervals import profile
 
         return profile(self, name, points)
+
+    def by_profile(self, name: str) -> Fit:
+        """The same fit with the interval of one parameter from its profile, which follows the bend of the
+        model; as before where that has no end.
+        """
+        estimate = self.parameters[name]
+        if name in self.held or not np.isfinite(estimate.standard_error):
+            return self
+        ends = self.profile(name, points=2).interval_95
+        kept = [new if np.isfinite(new) else old for new, old in zip(ends, estimate.interval_95, strict=True)]
+        return replace(
+            self, parameters=self.parameters | {name: replace(estimate, interval_95=(kept[0], kept[1]))}
+        )
 
     def bootstrap(self, count: int = 500, seed: int = 0) -> Mapping[str, np.ndarray]:
         """Parameters refitted to resampled residuals; see ``granum.estimation.intervals.bootstrap``."""
@@ -252,6 +295,7 @@ def derive(
     covariance: np.ndarray,
     degrees_of_freedom: float,
     units: Mapping[str, str],
+    parts: Parts | None = None,
 ) -> dict[str, Estimate]:
     """Delta method: value, standard error and t-interval of any function of the parameters."""
     names = list(values)
@@ -262,18 +306,27 @@ def derive(
         if isinstance(function, eqx.Module)
         else jax.jit(partial(_derived, function, tuple(names)))(vector)
     )
-    reach = t_reach(0.95, degrees_of_freedom)
     found = {}
     for name, value in out.items():
         row = np.asarray(slopes[name])
         error = float(np.sqrt(max(row @ covariance @ row, 0.0)))
-        found[name] = Estimate(
-            float(value),
-            units.get(name, ""),
-            error,
-            (float(value) - reach * error, float(value) + reach * error),
-        )
+        reach = t_reach(0.95, freedom(row, parts, degrees_of_freedom))
+        found[name] = Estimate(float(value), units.get(name, "")).within(error, reach)
     return found
+
+
+def freedom(row: np.ndarray, parts: Parts | None, otherwise: float) -> float:
+    """Degrees of freedom of a linear combination of parameters whose variance is a sum of parts, none of them
+    known exactly (Satterthwaite 1946; Kenward and Roger 1997).
+    """
+    if parts is None:
+        return otherwise
+    shares = np.einsum("i,gij,j->g", row, parts.covariances, row)
+    return (
+        float(2.0 * shares.sum() ** 2 / (shares @ parts.variances @ shares))
+        if shares.sum() > 0
+        else otherwise
+    )
 
 
 def _derived(function: Any, names: tuple[str, ...], vector: Any) -> tuple[Any, Any]:

@@ -15,7 +15,13 @@ from granum.evaporation.equipment.evaporator import (
 )
 from granum.evaporation.equipment.multiple_effect import (
     FromTrain as FromTrain,
+    JetFigures as JetFigures,
     MultipleEffectEvaporator as MultipleEffectEvaporator,
+    SteamJetEvaporator as SteamJetEvaporator,
+    Suction as Suction,
     Train as Train,
     TrainFigures as TrainFigures,
+)
+from granum.evaporation.formulas.steam_jet import (
+    motive_steam_ratio_el_dessouky as motive_steam_ratio_el_dessouky,
 )

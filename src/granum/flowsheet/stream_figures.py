@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import equinox as eqx
@@ -100,7 +101,21 @@ def feed_parameter(feed: Stream, name: str, word: str) -> Parameter:
                 feed=name, phase=_(phase)
             )
         )
-    return Parameter(species, KINDS["MassFraction"]) if dot else Parameter(word, KINDS[FIGURES[word]])
+    if dot:
+        return Parameter(species, KINDS["MassFraction"])
+    kind = KINDS[FIGURES[word]]
+    return Parameter(word, replace(kind, per_volume=_density(feed, word)) if word in FLOWS else kind)
+
+
+def _density(feed: Stream, flow: str) -> float | None:
+    """Of what a flow of a feed is made of, kg/m³."""
+    volume = {
+        "solid_flow": feed.solid_volume_flow,
+        "liquid_flow": feed.liquid_volume_flow,
+        "gas_flow": feed.gas_volume_flow,
+        "mass_flow": feed.slurry_volume_flow + feed.gas_volume_flow,
+    }.get(flow)
+    return float(getattr(feed, flow) / volume) if volume is not None and float(volume) > 0.0 else None
 
 
 def given_value(sheet: Flowsheet, path: str) -> Any:

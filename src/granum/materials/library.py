@@ -37,6 +37,7 @@ from granum.materials.solutes import SoluteSystem
 
 Entries = dict[str, dict[str, Any]]
 _SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute", "salt": "Salt"}
+OWN = ("solid", "fluid", "solute")  # what a case may state
 _SPELLINGS = {
     "sulph": "sulf",
     "Sulph": "Sulf",
@@ -78,6 +79,15 @@ class _Own:
             raise InputError(
                 _("{place} is not valid TOML: {reason}.").format(place=self.place, reason=problem)
             ) from problem
+
+
+def stated(sort: str, name: str) -> str:
+    """How a person states a material that the library lacks."""
+    if sort not in OWN:
+        return ""
+    return _('State the properties of one that the library lacks in a table [{sort}."{name}"].').format(
+        sort=sort, name=name
+    )
 
 
 @dataclass(frozen=True, repr=False)
@@ -135,7 +145,7 @@ class Library:
             )
             if found is not None:
                 return found
-        raise unknown_name(_(_SORTS[sort]), name, known)
+        raise unknown_name(_(_SORTS[sort]), name, known, strict=True, otherwise=stated(sort, name))
 
     def called(self, name: str, *sorts: str) -> str | None:
         """What the library calls a material, by the first of the ``sorts`` that knows it; None where none

@@ -25,7 +25,7 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.materials.correlation import Correlation
 from granum.materials.fluids import Fluid
-from granum.materials.library import Library, session
+from granum.materials.library import Library, session, stated
 from granum.materials.solids import Solid
 from granum.materials.solutes import SoluteSystem
 from granum.streams.exchange import by_ions
@@ -129,7 +129,14 @@ def _liquid(known: Library, name: str) -> Species:
                 ),
                 name=name,
             )
-        raise unknown_name(_("Liquid"), name, there, meant=meant)
+        raise unknown_name(
+            _("Liquid"),
+            name,
+            there,
+            meant=meant,
+            strict=True,
+            otherwise="" if meant else stated("fluid", name),
+        )
     f = known.fluid(name)
     return Species(
         f.name,

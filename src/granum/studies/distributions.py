@@ -96,7 +96,7 @@ class FromFit(Source):
 
     def values(self, u: np.ndarray) -> np.ndarray:
         u = np.clip(u, EDGE, 1.0 - EDGE)
-        dof = self.fit.statistics["degrees_of_freedom"]
+        dof = self.fit.degrees_of_freedom
         drawn = self.fit.at_normal(
             scipy.special.ndtri(u[:, :-1]), np.sqrt(scipy.stats.chi2.ppf(u[:, -1], dof) / dof)
         )

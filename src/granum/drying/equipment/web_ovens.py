@@ -188,9 +188,9 @@ class AbstractWebOven(Unit):
             "humid": figures.relative_humidity,
             "given": figures.heat_duty_heater,
         } | flammable(outlets.exhaust)
-        if self.temperature_limit is not None:
-            found["hot"] = figures.temperature_highest - self.temperature_limit
-        return found
+        if self.temperature_limit is None:
+            return found | {"scorched": figures.temperature_highest - 273.15}
+        return found | {"hot": figures.temperature_highest - self.temperature_limit}
 
     def drawn(
         self, inside: dict[str, Any], outlets: WebDried, figures: WebFigures, feed: Stream, gas: Stream
@@ -203,10 +203,15 @@ class AbstractWebOven(Unit):
         }
 
 
+# of wool, the first of the webs to ignite: 205 °C, newsprint 230, cotton 230 to 266 (recalled)
+SCORCHED, FIRES = 200.0, "cote2008"
 _LIMITS: Limits = {
     "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
     "given": Limit("heat that the heater of the air has to give", 0.0, math.inf, "W", "keey1978"),
     "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
+    "scorched": Limit(
+        "highest temperature of a web without its own limit", -math.inf, SCORCHED, "degC", FIRES
+    ),
 } | FLAMMABLE
 _UTILITIES: Utilities = HEATED | AREA | FANNED | {"heat_input_electricity": Utility("metaxas1983; keey1978")}
 
@@ -223,6 +228,7 @@ class ImpingementDryer(AbstractWebOven):
     or of round nozzles, of ``diameter`` (slot width or bore) at ``nozzle_distance`` from the web; they are as
     humid as the exhaust, and the exhaust leaves as hot as they are. ``radiant_heat`` adds infrared or a
     high-frequency field. Vapor is not taken back. The speed follows from the flow of dry solid, grammage and
+    width. A web without a ``temperature_limit`` is held to 200 °C, below where wool and paper catch fire.
     width. ``heat_loss_share`` is of the heat of the air's heater; the fan drives fresh air and jets. Whether
     fresh air is wasted shows in the vapor per dry air, best between 0.1 and 0.15: of air of 150 °C that is 3
     to 4 % of relative humidity.
@@ -290,7 +296,8 @@ class RadiantDryer(AbstractWebOven):
     with what it takes from the mains. The air along the layer has one temperature, ``temperature_air``, to
     which fresh air (``gas``) is heated, and the humidity of the exhaust; it cools the layer or heats it by
     the heat transfer coefficient on ``sides``. Vapor is not taken back. The speed follows from the flow of
-    dry solid, its mass per area and the width. ``heat_loss_share`` is of the heat of the air's heater.
+    dry solid, its mass per area and the width. ``heat_loss_share`` is of the heat of the air's heater. A web
+    without a ``temperature_limit`` is held to 200 °C, below where wool and paper catch fire.
     """
 
     width: Length

@@ -27,9 +27,6 @@ from granum.estimation.lines import straight_line
 from granum.filtration.formulas.deliquoring import saturation_after_deliquoring
 from granum.filtration.formulas.washing import wash_effluent_concentration
 
-ROUNDS = 3  # of weighing the columns by their scatter
-LEAST_SCATTER = 1e-9  # relative, of a column that an equation has made
-
 
 @lab_test(
     "compression_cell",
@@ -44,8 +41,8 @@ class CompressionCell(LabTest):
     """Local resistance and void fraction of a cake against the pressure on its solid, fitted together with
     one characteristic pressure.
 
-    The scatter of either column is taken proportional to its value, and how large it is from what earlier
-    fits leave of each: resistances scatter more than void fractions. The result feeds ``cake_profile``.
+    The scatter of either column is taken proportional to its value, and how large it is found with the fit:
+    resistances scatter more than void fractions. The result feeds ``cake_profile``.
     """
 
     solids_pressure: Annotated[PressureDrop, Series("points")]
@@ -95,14 +92,8 @@ class CompressionCell(LabTest):
             "void_fraction_unloaded": (0.0, 0.999),
             "characteristic_pressure": (1e-3 * float(p.min()), 1e2 * float(p.max())),
         }
-        sizes, values = np.ones(2), start
-        for _round in range(ROUNDS):
-            found = self.fitted(model, values, p, measured, bounds=bounds, sigma=tuple(sizes), judged=False)
-            # each column has a level and a power of its own, and half of the pressure they share
-            sizes = np.linalg.norm(found.residuals.reshape(2, -1), axis=1) / np.sqrt(len(p) - 2.5)
-            sizes = np.maximum(sizes, max(LEAST_SCATTER, 1e-3 * sizes.max()))
-            values = found.values
-        return self.fitted(model, values, p, measured, bounds=bounds, sigma=tuple(sizes))
+        bent = tuple(n for n in start if n != "void_fraction_unloaded")
+        return self.fitted(model, start, p, measured, bounds=bounds, apart=True, logarithmic=bent)
 
     def chart(self) -> Any:
         """Resistance against solids pressure on logarithmic axes, with the law."""
@@ -203,4 +194,4 @@ class DeliquoringCurve(LabTest):
             jnp.asarray(t),
             S,
             bounds={"cake_permeability": (0.0, np.inf), "irreducible_saturation": (0.0, float(S.min()))},
-        )
+        ).by_profile("irreducible_saturation")

@@ -159,18 +159,6 @@ class Compressibility(LabTest):
                 "void_fraction_reference": float(1.0 - np.exp(level)),
                 "compaction_exponent": float(slope) or 0.01,
             }
-            first = self.fitted(
-                lambda p, x: self._law(p, x),
-                dict(list(start.items())[: 3 if self.with_threshold else 2]),
-                pressures,
-                np.log(resistances),
-                **options,
-            )
-            packing = np.log(pressures / self.reference_pressure) * slope + level - np.log(solid)
-            sizes = (
-                first.statistics["residual_standard_deviation"] or 1e-9,
-                float(np.sqrt(packing @ packing / (len(solid) - 2))) or 1e-9,
-            )
 
             def both(p: dict[str, Any], x: Any) -> Any:
                 level = jnp.log1p(-p["void_fraction_reference"])
@@ -179,7 +167,7 @@ class Compressibility(LabTest):
                 )
 
             found = self.fitted(
-                both, start, pressures, (np.log(resistances), np.log(solid)), sigma=sizes, **options
+                both, start, pressures, (np.log(resistances), np.log(solid)), apart=True, **options
             )
         return self._judged(found)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -23,6 +24,7 @@ from granum.core.kinds import (
 )
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
+from granum.estimation.results import t_reach
 
 
 @lab_test(
@@ -35,8 +37,8 @@ from granum.estimation.lines import straight_line
     ),
 )
 class SlurryJar(LabTest):
-    """Mass fraction of solids with its interval, and wet to dry ratio, dry cake per filtrate and void
-    fraction of the cake beside it.
+    """Mass fraction of solids, wet to dry ratio, dry cake per filtrate and void fraction of the cake, each
+    with the interval that the jars among one another give it.
 
     Each row is one jar: its slurry, the wet cake filtered from it, that cake dried, and the volume of the wet
     cake.
@@ -65,8 +67,9 @@ class SlurryJar(LabTest):
                 _("Each jar needs slurry, wet cake and dry cake of falling mass, none of them zero."),
                 name="dry_cake_mass",
             )
-        ratio = float(wet.sum() / dry.sum())
-        void = float(1.0 - dry.sum() / (self.solid_density * volume.sum()))
+        ratio, ratio_error = _of_sums(wet, dry)
+        bulk, bulk_error = _of_sums(volume, dry)
+        void = 1.0 - 1.0 / (self.solid_density * bulk)
         flags = []
         full = void * self.liquid_density * volume.sum()  # of liquid in a saturated cake
         if not 0.95 < (wet.sum() - dry.sum()) / full < 1.05:
@@ -84,7 +87,7 @@ class SlurryJar(LabTest):
                 "void_fraction": void + 0.0 * s,
             }
 
-        return self.fitted(
+        found = self.fitted(
             lambda p, M: p["solids_mass_fraction"] * M,
             {"solids_mass_fraction": float(dry.sum() / slurry.sum())},
             slurry,
@@ -98,6 +101,29 @@ class SlurryJar(LabTest):
                 "void_fraction": Fraction,
             },
         )
+        solids = found["solids_mass_fraction"]
+        left = 1.0 - ratio * solids.value
+        parts = np.square(
+            [solids.standard_error / left**2, solids.value**2 * ratio_error / left**2]
+        )  # each over the density of the liquid
+        spare = found.degrees_of_freedom
+        known = spare * parts.sum() ** 2 / np.sum(parts**2) if parts.sum() > 0.0 else spare
+        errors = {
+            "wet_to_dry_mass_ratio": (ratio_error, spare),
+            "void_fraction": (bulk_error / (self.solid_density * bulk**2), spare),
+            "dry_cake_per_filtrate": (float(self.liquid_density * np.sqrt(parts.sum())), float(known)),
+        }
+        beside = {n: e.within(errors[n][0], t_reach(0.95, errors[n][1])) for n, e in found.derived.items()}
+        return replace(found, derived=beside)
+
+
+def _of_sums(above: np.ndarray, below: np.ndarray) -> tuple[float, float]:
+    """One sum over another with its standard error: a line through the origin with a variance in proportion
+    to what stands below (Cochran 1977, § 6.3).
+    """
+    ratio = float(above.sum() / below.sum())
+    squares = np.sum((above - ratio * below) ** 2 / below) / max(len(below) - 1, 1)
+    return ratio, float(np.sqrt(squares / below.sum()))
 
 
 @lab_test(
