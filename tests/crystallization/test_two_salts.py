@@ -12,13 +12,15 @@ import granum as gr
 from granum.core.errors import InputError
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
 from granum.crystallization.vessels.common_ion import (
+    borders,
+    brine_saturation,
     crystallization_path,
+    diagram,
     four_of,
     invariant_point,
     pair_of,
     parted,
     reciprocal_saturation,
-    with_all,
 )
 from granum.materials.brines import brine
 from granum.streams.from_materials import mixture_of
@@ -27,6 +29,13 @@ from granum.streams.stream import empty
 PAIR = pair_of("sodium chloride", "potassium chloride")
 NAMES = ["sodium chloride", "potassium chloride"]
 CHLORIDES = mixture_of(["water", *NAMES], NAMES, ["water"], np.geomspace(1e-5, 4e-3, 21))
+
+
+def with_all(salts, temperature, which):
+    """The solution beside a surplus of some salts."""
+    amounts = np.zeros(len(salts.salts))
+    amounts[list(which)] = 3.0 * np.asarray(salts.alone(jnp.asarray(temperature)))[list(which)]
+    return parted(salts, temperature, jnp.asarray(amounts @ salts.ions_per_salt))
 
 
 def solution(water, first, second, temperature=368.15):
