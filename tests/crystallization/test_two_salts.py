@@ -12,10 +12,7 @@ import granum as gr
 from granum.core.errors import InputError
 from granum.crystallization.equipment.two_salts import TwoSaltCrystallizer
 from granum.crystallization.vessels.common_ion import (
-    borders,
-    brine_saturation,
     crystallization_path,
-    diagram,
     four_of,
     invariant_point,
     pair_of,
@@ -269,7 +266,7 @@ def test_other_pairs_are_refused():
     with pytest.raises(InputError, match="known are ions"):
         invariant_point(temperature=298.15, first_salt="sodium chloride", second_salt="copper sulfate")
     with pytest.raises(InputError, match="known are ions"):
-        gr.crystallization.reciprocal_chart(298.15, "sodium sulfate", "potassium chloride")  # glaserite
+        gr.crystallization.reciprocal_chart(298.15, "sodium sulfate", "calcium chloride")  # gypsum
     with pytest.raises(InputError, match="share no ion"):
         invariant_point(298.15, "sodium nitrate", "potassium chloride")
     with pytest.raises(InputError, match="share an ion"):

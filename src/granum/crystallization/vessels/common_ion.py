@@ -30,6 +30,7 @@ from granum.core.kinds import (
 )
 from granum.core.units import show
 from granum.materials.brines import SOLVENT, Brine, Equilibrium, brine
+from granum.materials.formulas.activity import WATER
 from granum.materials.library import session
 from granum.numerics import find_root
 
@@ -259,12 +260,29 @@ def isotherm(pair: Brine, temperature: float) -> Isotherm:
     return Isotherm(x, y, tuple(int(i) for i in corners), crystals)
 
 
+def _boiled_to(pair: Brine, fed: np.ndarray, end: Border) -> float:
+    """How many times less water there is once a liquor, all of one crystal that it has formed still there, is
+    saturated with two.
+    """
+    ways = [1.0]
+    for form in (pair.crystals[k] for k in end.crystals):
+        taken = np.array(form.salts) - WATER * form.water * end.molalities
+        table = np.stack([fed, -taken], axis=-1)
+        if abs(np.linalg.det(table)) > 1e-12:
+            thicker, formed = np.linalg.solve(table, end.molalities)
+            ways += [float(thicker)] if formed >= 0.0 else []
+    return max(ways)
+
+
 def crystallization_path(pair: Brine, first: float, second: float, hot: float, cold: float) -> Path:
     """The way of a liquor from its mass fractions on; the crystals are taken off before it is cooled."""
     water = 1.0 - first - second
     fed = np.array([first, second]) / pair.molar_masses / water
-    ends = driest(pair, hot).molalities if fed.min() > 0.0 else np.asarray(pair.alone(jnp.asarray(hot)))
-    thicker = max(float(end / m) for end, m in zip(ends, fed, strict=True) if m > 0.0)
+    if fed.min() > 0.0:
+        thicker = _boiled_to(pair, fed, driest(pair, hot))
+    else:
+        alone = np.asarray(pair.alone(jnp.asarray(hot)))
+        thicker = max(float(end / m) for end, m in zip(alone, fed, strict=True) if m > 0.0)
     scales = np.geomspace(1.0, max(thicker, 1.0), STAGES)
     boiled = liquors(pair, jnp.full(STAGES, hot), jnp.asarray(scales[:, None] * (fed @ pair.ions_per_salt)))
     cooled = liquors(pair, jnp.linspace(hot, cold, STAGES), jnp.tile(boiled[-1], (STAGES, 1)))
