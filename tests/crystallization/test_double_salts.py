@@ -144,7 +144,9 @@ def test_lines_and_ties_of_a_double_salt():
     own = np.take_along_axis(ratios, line.crystals[:, None], axis=1)
     assert np.max(np.abs(own)) < 1e-5
     assert len(line.corners) == 2
-    drawn = gr.crystallization.two_salts_chart([298.15], "potassium chloride", "magnesium chloride", 0.05, 0.2)
+    drawn = gr.crystallization.two_salts_chart(
+        [298.15], "potassium chloride", "magnesium chloride", 0.05, 0.2
+    )
     assert drawn.data
 
 
@@ -230,6 +232,12 @@ def test_what_would_crystallize_too_is_told():
         words = " ".join(row["message"] for row in describe(made.records))
         assert ("double salt" in words) is told
         assert (float(made.figures.crystal_flow_double) > 0.1) is not told
+    # of a mixture with one crystal the second salt is the other one
+    one = mixture_of(["water", *LIQUIDS[:1], LIQUIDS[2]], ["potassium chloride"], ["water"], EDGES)
+    made = TwoSaltCrystallizer(293.15, 5.0).operate(
+        feed=empty(one, 330.0).replace(liquid=jnp.array([1.0, 0.1, 0.4]))
+    )
+    assert float(made.figures.crystal_flow_first) > 0.0 == float(made.figures.crystal_flow_second)
     with pytest.raises(InputError, match="double salt"):
         mixture_of(["water", "potassium chloride"], ["carnallite"], ["water"], EDGES)
 
@@ -241,4 +249,6 @@ def test_saturation_of_a_brine():
     assert found.saturation_ratio == pytest.approx(1.0, abs=0.005)
     found = brine_saturation(298.15, 0.1, 0.12, 0.0, "sodium sulfate", "potassium sulfate")
     assert found.crystal == found.crystal_double == "glaserite"
-    assert brine_saturation(298.15, 0.1, 0.1, 0.0, "sodium chloride", "potassium chloride").crystal_double == ""
+    assert (
+        brine_saturation(298.15, 0.1, 0.1, 0.0, "sodium chloride", "potassium chloride").crystal_double == ""
+    )

@@ -30,13 +30,21 @@ class DoubleSalt(NamedTuple):
         return 2.302585092994046 * (a + b * T + c / T)
 
 
-# Products for 25 °C after Harvie, Møller and Weare, their change with temperature and the heats after Toner and
-# Catling; that of carnallite after Appelo. Glaserite is Toner and Catling's at 25 °C; the heat of its formation
-# from the solid sulfates is constant (13.5 kJ/mol) and such that the invariant points at 20 and 40 °C are those of
-# Attia-Essaies and others.
+# Products for 25 °C after Harvie, Møller and Weare, their change with temperature and the heats after Toner
+# and Catling; that of carnallite after Appelo. Glaserite is Toner and Catling's at 25 °C; the heat of its
+# formation from the solid sulfates is constant (13.5 kJ/mol) and such that the invariant points at 20 and
+# 40 °C are those of Attia-Essaies and others.
 DOUBLE_SALTS: Mapping[str, DoubleSalt] = MappingProxyType(
     {
-        "glaserite": DoubleSalt({"K": 3, "Na": 1, "SO4": 2}, 0.0, (18.433, -2.63520644e-2, -4275.56499), 38900.0, ATTIA, 273.15, 373.15),
+        "glaserite": DoubleSalt(
+            {"K": 3, "Na": 1, "SO4": 2},
+            0.0,
+            (18.433, -2.63520644e-2, -4275.56499),
+            38900.0,
+            ATTIA,
+            273.15,
+            373.15,
+        ),
         "carnallite": DoubleSalt(
             {"K": 1, "Mg": 1, "Cl": 3}, 6.0, (23.966, -3.11e-2, -3090.0), 6200.0, APPELO, 273.15, 373.15
         ),

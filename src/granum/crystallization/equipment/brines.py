@@ -19,7 +19,6 @@ from granum.particles.size_laws import LogNormal
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
-
 SLACK = 1e-6
 DOUBLE = (
     "This double salt would crystallize too: give it among the solids of the mixture, and it does; or add "

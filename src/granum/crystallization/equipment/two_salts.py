@@ -26,7 +26,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.crystallization.equipment.brines import Salts, salts_of
 from granum.crystallization.equipment.in_time import Crystallized
-from granum.crystallization.equipment.roles import given_off, refuse_boiling, roles
+from granum.crystallization.equipment.roles import Roles, given_off, refuse_boiling, vapor_of
 from granum.crystallization.kinds import VesselVolume
 from granum.materials.brines import SOLVENT, Equilibrium, brine
 from granum.numerics.smooth import safe_divide
@@ -124,7 +124,7 @@ class TwoSaltCrystallizer(Unit):
         crystallizing = list(dict.fromkeys(f.salt for f in forms if f.salt is not None))
         others = [
             k
-            for k in (*crystallizing, *range(len(names)))
+            for k in dict.fromkeys((*crystallizing, *range(len(names))))
             if names[k] not in (self.first_salt, self.second_salt)
         ]
         first = names.index(self.first_salt) if self.first_salt else others.pop(0)
@@ -151,7 +151,7 @@ class TwoSaltCrystallizer(Unit):
 
     def outlets(self, inside: Parted, feed: Stream) -> Crystallized:
         T, product = jnp.asarray(self.temperature, dtype=float), inside.product
-        place = roles(feed.mixture, feed.mixture.solids[inside.salts.forming[0].solid].name, SOLVENT)
+        place = Roles(inside.salts.forming[0].solid, 0, 0, vapor_of(feed.mixture, 0), 1.0)
         vapor = given_off(feed, place, self.evaporation, T)
         if place.vapor is not None:
             refuse_boiling(self.evaporation, product, feed, place, type(self).card)

@@ -382,7 +382,15 @@ def invariant_point(
     water = session().fluid(SOLVENT).vapor_pressure.value(T)
     names = (pair.crystals[k].name for k in found.crystals)
     return InvariantPoint(
-        *names, one, other, float(x), float(y), float(alone[0]), float(alone[1]), activity, activity * float(water)
+        *names,
+        one,
+        other,
+        float(x),
+        float(y),
+        float(alone[0]),
+        float(alone[1]),
+        activity,
+        activity * float(water),
     )
 
 

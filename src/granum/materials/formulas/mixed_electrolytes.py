@@ -13,7 +13,10 @@ from granum.core.kinds import PositiveNumber
 from granum.materials.formulas.activity import WATER
 
 B, ALPHA = 1.2, 2.0
-PAIRED, PAIRS = 1.4, 12.0  # in place of ALPHA where both ions have charges of two or more, and for their pairs
+PAIRED, PAIRS = (
+    1.4,
+    12.0,
+)  # in place of ALPHA where both ions have charges of two or more, and for their pairs
 
 
 class Coefficients(NamedTuple):
