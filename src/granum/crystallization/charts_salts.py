@@ -149,12 +149,11 @@ def reciprocal_chart(
     anion_share: Fraction | None = None,
 ) -> Any:
     """Fields in which each of four salts crystallizes first, with the water of the saturated solutions, over
-    the shares of the ions by charge; and the path of a solution that loses water. Double salts have fields of
-    their own.
+    the shares of the ions by charge; and the path of a solution that loses water.
 
     A solution moves straight away from the corner of the crystal that forms, to the border of its field and
     along that to where three salts are saturated. Of the two diagonals that pair is stable together which no
-    other field cuts: the other two salts convert into it.
+    other field cuts: the other two salts convert into it. Double salts have fields of their own.
 
     >>> drawing = reciprocal_chart(temperature="25 degC", cation_share=0.5, anion_share=0.5)
     >>> [trace.name for trace in drawing.data if trace.showlegend][-1]
