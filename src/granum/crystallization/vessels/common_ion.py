@@ -516,7 +516,7 @@ def brine_saturation(
     potassium, magnesium and calcium, chloride, sulfate (not of calcium) and, with sodium and potassium at
     room temperature, nitrate. No double salt: its ratio is zero.
 
-    >>> out = brine_saturation("25 degC", 0.05, 0.42)
+    >>> out = brine_saturation("25 degC", 0.02, 0.47)
     >>> out.crystal, bool(out.saturation_ratio > 1.0)
     ('carnallite', True)
     """
