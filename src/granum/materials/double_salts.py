@@ -60,7 +60,7 @@ DOUBLE_SALTS: Mapping[str, DoubleSalt] = MappingProxyType(
 
 def in_salts(salts: Sequence[Ions], ions: Mapping[str, int]) -> tuple[float, ...] | None:
     """Mol of each of some salts that hold the ions of a double salt; None where they do not."""
-    left, found = dict(ions), [0.0] * len(salts)
+    left, found = {ion: float(n) for ion, n in ions.items()}, [0.0] * len(salts)
     for k, p in enumerate(salts):
         if p.cation in left and p.anion in left:
             found[k] = min(left[p.cation] / p.cation_count, left[p.anion] / p.anion_count)

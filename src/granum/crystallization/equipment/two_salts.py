@@ -175,7 +175,9 @@ class TwoSaltCrystallizer(Unit):
         activity = salts.brine.water_activity(T, left.molalities)
         water = feed.mixture.materials.fluid(SOLVENT)
         return TwoSaltFigures(
-            *made,
+            made[0],
+            made[1],
+            made[2],
             jnp.where(every > 0.0, safe_divide(jnp.max(jnp.stack(flows)), every, 1.0), 1.0),
             fractions[0],
             fractions[1],

@@ -380,9 +380,10 @@ def invariant_point(
     alone = pair.alone(T)
     activity = float(pair.water_activity(T, ions))
     water = session().fluid(SOLVENT).vapor_pressure.value(T)
-    names = (pair.crystals[k].name for k in found.crystals)
+    first, following = (pair.crystals[k] for k in found.crystals)
     return InvariantPoint(
-        *names,
+        first.name,
+        following.name,
         one,
         other,
         float(x),
