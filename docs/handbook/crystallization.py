@@ -40,6 +40,9 @@ heat_boiling = water_per_salt * float(m.water_heat_of_vaporization("60 degC"))
 # ---- exchange
 first_crystal = c.reciprocal_saturation("25 degC", 0.5, 0.5)
 beside = c.solubility_beside_salt("25 degC", "200 g/kg")
+bittern = c.brine_saturation("25 degC", "20 g/kg", "470 g/kg")
+dried_up = c.invariant_point("25 degC", "potassium chloride", "magnesium chloride")
+glaserite = c.reciprocal_saturation("25 degC", 0.5, 0.5, "sodium sulfate", "potassium chloride")
 
 # ---- barrier
 KNO3 = {"crystal_density": "2110 kg/m^3", "molar_mass": "101.1 g/mol"}

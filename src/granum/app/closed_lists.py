@@ -123,7 +123,7 @@ OF_MIXTURE = {
     "first_salt": ("liquids",),
     "second_salt": ("liquids",),
 }
-PAIRED = ("first_salt", "second_salt")
+PAIRED = ("first_salt", "second_salt", "third_salt")
 
 
 def word_label(word: str) -> str:

@@ -491,12 +491,15 @@ from granum.crystallization.vessels.classified_bed import (
     Upflow as Upflow,
 )
 from granum.crystallization.vessels.common_ion import (
+    Border as Border,
+    BrineSaturation as BrineSaturation,
     Diagram as Diagram,
     InvariantPoint as InvariantPoint,
     Isotherm as Isotherm,
     Path as Path,
     ReciprocalSaturation as ReciprocalSaturation,
     SolubilityBeside as SolubilityBeside,
+    brine_saturation as brine_saturation,
     invariant_point as invariant_point,
     reciprocal_saturation as reciprocal_saturation,
     solubility_beside_salt as solubility_beside_salt,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Annotated, Any
 
 import jax.numpy as jnp
@@ -27,6 +28,7 @@ from granum.crystallization.vessels.common_ion import (
 )
 from granum.materials.activities import SLACK
 from granum.materials.brines import Brine
+from granum.materials.formulas.activity import WATER
 from granum.materials.library import session
 
 TIES = 4  # tie lines of each branch
@@ -54,7 +56,8 @@ def two_salts_chart(
     temperatures, and the path of a liquor that is boiled and cooled, on a triangle by mass.
 
     Above a line the solution is unsaturated. Below it one salt crystallizes along a straight line from its
-    corner, the tie line; between those from an invariant point to both corners both do. The path of the given
+    corner, or a double salt from its place on the side, the tie line; between those from an invariant point
+    to both crystals both do. The path of the given
     liquor leads from the corner of the water, at the highest temperature, to where both salts are saturated,
     and from there, the crystals being taken off, to the lowest temperature.
 
@@ -86,7 +89,7 @@ def two_salts_chart(
         word = celsius(T)
         line = {"color": color, "width": 2}
         add_on_triangle(drawing, x, y, word, line=line, mode="lines")
-        here = slice(found.corner, found.corner + 1)
+        here = list(found.corners)
         both = _("both saturated, {where}").format(where=word)
         mark = {"color": color, "size": 9, "line": {"color": OUT, "width": 1}}
         add_on_triangle(drawing, x[here], y[here], both, mode="markers", marker=mark, showlegend=False)
@@ -122,21 +125,14 @@ def _within(salts: Brine, T: float, name: str) -> None:
 
 def _ties(pair: Brine, found: Isotherm) -> tuple[np.ndarray, np.ndarray]:
     """Straight lines from saturated solutions to their crystals, with gaps between them."""
-    last, x, y = len(found.first) - 1, [], []
-    ends = [
-        *np.linspace(0, found.corner, TIES).astype(int),
-        *np.linspace(found.corner, last, TIES).astype(int),
-    ]
-    for turn, i in enumerate(ends):
-        crystal = pair.crystals[found.crystals[i]]
-        salt = crystal.salt
-        if i == found.corner:  # both crystals: one on the way there, the other from there on
-            salt = 0 if turn < TIES else 1
-            beside = found.crystals[i - 1 if turn < TIES else min(i + 1, last)]
-            crystal = pair.crystals[beside]
-        dry = 1.0 / float(crystal.branch.hydrate_ratio)
-        x += [found.first[i], dry if salt == 0 else 0.0, np.nan]
-        y += [found.second[i], dry if salt == 1 else 0.0, np.nan]
+    x, y = [], []
+    for start, end in pairwise((0, *found.corners, len(found.first) - 1)):
+        form = pair.crystals[found.crystals[(start + end + 1) // 2]]
+        salts = form.salts * pair.molar_masses
+        whole = np.sum(salts) + WATER * form.water
+        for i in np.linspace(start, end, TIES).astype(int):
+            x += [found.first[i], salts[0] / whole, np.nan]
+            y += [found.second[i], salts[1] / whole, np.nan]
     return np.array(x), np.array(y)
 
 
@@ -157,7 +153,7 @@ def reciprocal_chart(
 
     A solution moves straight away from the corner of the crystal that forms, to the border of its field and
     along that to where three salts are saturated. Of the two diagonals that pair is stable together which no
-    other field cuts: the other two salts convert into it.
+    other field cuts: the other two salts convert into it. Double salts have fields of their own.
 
     >>> drawing = reciprocal_chart(temperature="25 degC", cation_share=0.5, anion_share=0.5)
     >>> [trace.name for trace in drawing.data if trace.showlegend][-1]
@@ -177,7 +173,7 @@ def reciprocal_chart(
             z=np.where(found.crystal == k, 1.0, np.nan),
             colorscale=[[0.0, color], [1.0, color]],
             opacity=0.35,
-            name=salts.crystals[k].branch.crystal.label,
+            name=salts.crystals[k].solid.label,
             showlegend=True,
             showscale=False,
             hoverinfo="skip",

@@ -268,7 +268,7 @@ def _boil_together(liquor: Liquor, salts: Salts, feed: Stream, chest: Any, pure:
 
     boiling = Boiling(gone, excess, DRIEST)
     made = salts.brine.equilibrium(pure - 1e-3, dissolved[0], salts.ions(dissolved), salts.which, boiling)
-    salts.brine.heard(made.temperature, made.molalities)
+    salts.heard(made.temperature, made.molalities)
     left = salts.left(dissolved, made.crystals)
     split = _Split(made.evaporated, list(made.crystals), left.at[0].add(-made.evaporated), left[0])
     return made.temperature, split, made.found

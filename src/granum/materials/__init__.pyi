@@ -19,6 +19,9 @@ from granum.materials.correlation import (
     Owner as Owner,
     Tabulated as Tabulated,
 )
+from granum.materials.double_salts import (
+    DoubleSalt as DoubleSalt,
+)
 from granum.materials.fluids import (
     Combustion as Combustion,
     Flammability as Flammability,

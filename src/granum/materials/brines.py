@@ -21,10 +21,12 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.materials.activities import SLACK, ElectrolyteActivity
 from granum.materials.correlation import Owner
+from granum.materials.double_salts import DOUBLE_SALTS, DoubleSalt, in_salts
 from granum.materials.formulas.activity import WATER, debye_huckel_slope, moller_function
 from granum.materials.formulas.mixed_electrolytes import Coefficients, log_activities
 from granum.materials.ions import Ions, ions_of
 from granum.materials.library import Library, session
+from granum.materials.solids import Solid
 from granum.materials.solutes import Branch, SoluteSystem
 from granum.numerics.complementarity import find_complementary
 
@@ -53,36 +55,72 @@ class Mixing(NamedTuple):
 
 
 ROOM = (288.15, 308.15)  # K, where coefficients for 25 °C are taken as they are
+WARM = (288.15, 373.15)
+MOLLER, GREENBERG = "moller1988, table 3", "greenberg1989, table 3"
+KIM, PABALAN, HARVIE = "pitzer1974mixed", "pabalan1987", "harvie1984"
 # as transcribed in the open-source package pytzer; the prints were not opened
 THETA = {
-    frozenset({"Na", "K"}): Mixing((-5.02312111e-2, 0.0, 14.0213141), "greenberg1989, table 3"),
-    frozenset({"Cl", "SO4"}): Mixing((0.07, 0.0, 0.0), "moller1988, table 3"),
-    frozenset({"Cl", "NO3"}): Mixing((0.016, 0.0, 0.0), "pitzer1974mixed", *ROOM),
+    frozenset({"Na", "K"}): Mixing((-5.02312111e-2, 0.0, 14.0213141), GREENBERG),
+    frozenset({"Na", "Mg"}): Mixing((0.07, 0.0, 0.0), PABALAN, *WARM),
+    frozenset({"K", "Mg"}): Mixing((0.0, 0.0, 0.0), PABALAN, *WARM),
+    frozenset({"Na", "Ca"}): Mixing((0.05, 0.0, 0.0), MOLLER),
+    frozenset({"K", "Ca"}): Mixing((0.1156, 0.0, 0.0), GREENBERG),
+    frozenset({"Mg", "Ca"}): Mixing((0.007, 0.0, 0.0), HARVIE, *ROOM),
+    frozenset({"Cl", "SO4"}): Mixing((0.07, 0.0, 0.0), MOLLER),
+    frozenset({"Cl", "NO3"}): Mixing((0.016, 0.0, 0.0), KIM, *ROOM),
 }
 PSI = {
-    (frozenset({"Na", "K"}), "Cl"): Mixing((1.34211308e-2, 0.0, -5.10212917), "greenberg1989, table 3"),
-    (frozenset({"Na", "K"}), "NO3"): Mixing((-0.0012, 0.0, 0.0), "pitzer1974mixed", *ROOM),
-    (frozenset({"Cl", "SO4"}), "Na"): Mixing((-0.009, 0.0, 0.0), "moller1988, table 3"),
-    (frozenset({"Cl", "SO4"}), "K"): Mixing(
-        (-2.12481475e-1, 2.84698333e-4, 37.5619614), "greenberg1989, table 3"
-    ),
-    (frozenset({"Cl", "NO3"}), "Na"): Mixing((-0.006, 0.0, 0.0), "pitzer1974mixed", *ROOM),
-    (frozenset({"Cl", "NO3"}), "K"): Mixing((-0.006, 0.0, 0.0), "pitzer1974mixed", *ROOM),
+    (frozenset({"Na", "K"}), "Cl"): Mixing((1.34211308e-2, 0.0, -5.10212917), GREENBERG),
+    (frozenset({"Na", "K"}), "SO4"): Mixing((3.48115174e-2, 0.0, -8.21656777), GREENBERG),
+    (frozenset({"Na", "K"}), "NO3"): Mixing((-0.0012, 0.0, 0.0), KIM, *ROOM),
+    (frozenset({"Na", "Mg"}), "Cl"): Mixing((1.99e-2, 0.0, -9.51), PABALAN, *WARM),
+    (frozenset({"Na", "Mg"}), "SO4"): Mixing((-0.015, 0.0, 0.0), PABALAN, *WARM),
+    (frozenset({"K", "Mg"}), "Cl"): Mixing((2.586e-2, 0.0, -14.27), PABALAN, *WARM),
+    (frozenset({"K", "Mg"}), "SO4"): Mixing((-0.048, 0.0, 0.0), HARVIE, *ROOM),
+    (frozenset({"Na", "Ca"}), "Cl"): Mixing((-0.003, 0.0, 0.0), MOLLER),
+    (frozenset({"K", "Ca"}), "Cl"): Mixing((4.76278977e-2, 0.0, -27.0770507), GREENBERG),
+    (frozenset({"Mg", "Ca"}), "Cl"): Mixing((-0.012, 0.0, 0.0), HARVIE, *ROOM),
+    (frozenset({"Cl", "SO4"}), "Na"): Mixing((-0.009, 0.0, 0.0), MOLLER),
+    (frozenset({"Cl", "SO4"}), "K"): Mixing((-2.12481475e-1, 2.84698333e-4, 37.5619614), GREENBERG),
+    (frozenset({"Cl", "NO3"}), "Na"): Mixing((-0.006, 0.0, 0.0), KIM, *ROOM),
+    (frozenset({"Cl", "NO3"}), "K"): Mixing((-0.006, 0.0, 0.0), KIM, *ROOM),
 }
+# another set that was fitted together: beside magnesium it is taken in place of these
+BITTER_THETA = {frozenset({"Cl", "SO4"}): Mixing((0.03, 0.0, 0.0), PABALAN, *WARM)}
+BITTER_PSI = {
+    (frozenset({"Cl", "SO4"}), "Mg"): Mixing((-1.174e-1, 0.0, 32.63), PABALAN, *WARM),
+    (frozenset({"Cl", "SO4"}), "Na"): Mixing((0.0, 0.0, 0.0), PABALAN, *WARM),
+    (frozenset({"Cl", "SO4"}), "K"): Mixing((-0.005, 0.0, 0.0), PABALAN, *WARM),
+}
+
+
+def _mixings(ions: Sequence[str]) -> tuple[dict[Any, Mixing], dict[Any, Mixing]]:
+    """The coefficients of two like ions, and of these with an unlike one, of a solution of ions."""
+    bitter = "Mg" in ions
+    return (THETA | BITTER_THETA, PSI | BITTER_PSI) if bitter else (THETA, PSI)
 
 
 class Forms(NamedTuple):
-    """A crystal: its salt, its branch of the solubility, and the mol of each ion and of water in a mole."""
+    """A crystal: mol of each salt, of each ion and of water in a mole; its branch of the solubility of one
+    salt, or what is known of it as a double salt.
+    """
 
-    salt: int
-    branch: Branch
+    solid: Solid
+    salts: tuple[float, ...]
     ions: tuple[int, ...]
     water: float
+    branch: Branch | None = None
+    double: DoubleSalt | None = None
 
     @property
     def name(self) -> str:
         """Of the crystal."""
-        return self.branch.crystal.name
+        return self.solid.name
+
+    @property
+    def salt(self) -> int | None:
+        """Which salt it is; none where it is a double salt."""
+        return None if self.branch is None else self.salts.index(1.0)
 
 
 class Equilibrium(NamedTuple):
@@ -147,38 +185,41 @@ class Brine(eqx.Module):
         """Of Pitzer's equations at a temperature."""
         split = len(self.charges[0])
         cations, anions = self.ions[:split], self.ions[split:]
-        sets = np.zeros((len(cations), len(anions), 3, 8))
+        sets = np.zeros((len(cations), len(anions), 4, 8))
         ends = np.zeros((2, len(cations), len(anions), 1))
         for system, p in zip(self.salts, self.parts, strict=True):
             law, at = system.activity_law, (cations.index(p.cation), anions.index(p.anion))
             assert isinstance(law, ElectrolyteActivity)
             sets[at], ends[0][at], ends[1][at] = (
-                (law.beta_zero, law.beta_one, law.c_phi),
+                (law.beta_zero, law.beta_one, law.c_phi, law.beta_two),
                 law.coldest,
                 law.hottest,
             )
         binary = moller_function(jnp.clip(T, *ends), np.moveaxis(sets, -1, 0))
 
+        theta, psi = _mixings(self.ions)
+
         def like(names: tuple[str, ...], others: tuple[str, ...]) -> tuple[Any, Any]:
             if len(names) < 2:
                 return 0.0, jnp.zeros(len(others))
             pair = frozenset(names)
-            return THETA[pair].at(T), jnp.stack([PSI[pair, other].at(T) for other in others])
+            return theta[pair].at(T), jnp.stack([psi[pair, other].at(T) for other in others])
 
         of_cations, of_anions = like(cations, anions), like(anions, cations)
         slope = debye_huckel_slope.function(T)
-        return Coefficients(slope, binary[..., 0], binary[..., 1], binary[..., 2], *of_cations, *of_anions)
+        zero, one, phi, two = (binary[..., k] for k in range(4))
+        return Coefficients(slope, zero, one, phi, *of_cations, *of_anions, two)
 
     def mixings(self) -> list[Mixing]:
         """What is known of the ions upon each other."""
-        ions = set(self.ions)
-        pairs = [m for like, m in THETA.items() if like <= ions]
-        return pairs + [m for (like, other), m in PSI.items() if like <= ions and other in ions]
+        ions, (theta, psi) = set(self.ions), _mixings(self.ions)
+        pairs = [m for like, m in theta.items() if like <= ions]
+        return pairs + [m for (like, other), m in psi.items() if like <= ions and other in ions]
 
     @property
     def limits(self) -> tuple[float, float]:
         """Temperatures between which all coefficients are known, K."""
-        every = self.mixings()
+        every = [*self.mixings(), *(c.double for c in self.crystals if c.double is not None)]
         return max((m.low for m in every), default=273.15), min((m.high for m in every), default=373.15)
 
     def heard(self, T: Any, molalities: Any) -> None:
@@ -212,26 +253,29 @@ class Brine(eqx.Module):
         return logs, log_water
 
     def _log_saturated(self, T: Any) -> Any:
-        """Logarithm of the solubility product of each crystal, from the solubility of its salt alone; beyond
-        the temperatures at which it is the stable crystal it goes on with the slope that it has there.
+        """Logarithm of the solubility product of each crystal: of a double salt its own, else from the
+        solubility of its salt alone; beyond the temperatures at which it is the stable crystal it goes on
+        with the slope that it has there.
         """
-        low = np.array([c.branch.stable_from for c in self.crystals])
-        high = np.array([c.branch.stable_to for c in self.crystals])
+        branches = [(c, c.branch) for c in self.crystals if c.branch is not None]
+        low = np.array([b.stable_from for _c, b in branches])
+        high = np.array([b.stable_to for _c, b in branches])
         end = jnp.clip(T, low, high)
         inside = jnp.where(low > T, low + BESIDE, high - BESIDE)
         temperatures = jnp.stack([end, inside])
         masses = self.molar_masses
-        alone = [c.branch.value(temperatures[:, k]) / masses[c.salt] for k, c in enumerate(self.crystals)]
-        m = jnp.stack(alone)[..., None] * jnp.asarray([c.ions for c in self.crystals], dtype=float)[:, None]
+        alone = [b.value(temperatures[:, k]) / masses[c.salt] for k, (c, b) in enumerate(branches)]
+        m = jnp.stack(alone)[..., None] * jnp.asarray([c.ions for c, _b in branches], dtype=float)[:, None]
 
         def products(t: Any, m: Any) -> Any:
             return self._products(self.coefficients(t), m)[0]
 
         known = jax.vmap(jax.vmap(products))(temperatures.T, m)
-        k = np.arange(len(self.crystals))
+        k = np.arange(len(branches))
         at_end, at_inside = known[k, 0, k], known[k, 1, k]
         beyond = jnp.where(end == T, 0.0, (1.0 / T - 1.0 / end) / (1.0 / end - 1.0 / inside))
-        return at_end + (at_end - at_inside) * beyond
+        doubles = [c.double.log_product(T) for c in self.crystals if c.double is not None]
+        return jnp.append(at_end + (at_end - at_inside) * beyond, jnp.asarray(doubles))
 
     def saturation(self, T: Any, molalities: Any) -> Any:
         """Logarithm of the saturation ratio of each crystal, per ion: zero at saturation."""
@@ -329,11 +373,12 @@ class Brine(eqx.Module):
         alone, rest, made = self.alone(T), N, []
         for c in forms:
             # of several crystals of a salt the one with least water: the others would take up the solvent
-            first = all(c.water <= other.water for other in forms if other.salt == c.salt)
+            first = c.salt is not None and all(c.water <= o.water for o in forms if o.salt == c.salt)
             part = jnp.asarray(c.ions, dtype=float)
             there = jnp.min(jnp.where(part > 0.0, rest / jnp.where(part > 0.0, part, 1.0), jnp.inf))
-            room = NEAR * alone[c.salt] * liquid
-            n = jnp.maximum(there - room, 1e-3 * there) if first else 1e-3 * there
+            n = 1e-3 * there
+            if first:
+                n = jnp.maximum(there - NEAR * alone[c.salt] * liquid, n)
             if c.water:
                 n = jnp.minimum(n, 0.5 * liquid / (WATER * c.water * len(forms)))
             rest = rest - n * part
@@ -343,7 +388,7 @@ class Brine(eqx.Module):
 
 def known_salts() -> str:
     """The combinations of ions whose mixtures are known, in words."""
-    pairs = [f"{'/'.join(sorted(like))} + {other}" for like, other in PSI]
+    pairs = [f"{'/'.join(sorted(like))} + {other}" for like, other in PSI | BITTER_PSI]
     return "; ".join(pairs)
 
 
@@ -384,8 +429,9 @@ def _brine(names: tuple[str, ...], known: Library) -> Brine | None:
     anions = tuple(dict.fromkeys(p.anion for p in parts.values() if p))
     mixed = [frozenset(like) for like in (cations, anions) if len(like) == 2]
     others = {frozenset(cations): anions, frozenset(anions): cations}
+    theta, psi = _mixings(cations)
     if max(len(cations), len(anions)) > 2 or any(
-        like not in THETA or any((like, other) not in PSI for other in others[like]) for like in mixed
+        like not in theta or any((like, other) not in psi for other in others[like]) for like in mixed
     ):
         return None
     by_ions = {(p.cation, p.anion): s for s in _every_salt(known) if (p := ions_of(s.formula))}
@@ -402,9 +448,16 @@ def _brine(names: tuple[str, ...], known: Library) -> Brine | None:
     crystals = []
     for k, (system, p) in enumerate(zip(salts, split, strict=True)):
         counts = {p.cation: p.cation_count, p.anion: p.anion_count}
+        own = tuple(float(k == other) for other in range(len(salts)))
         for branch in system.branches:
             bound = float(branch.solvent_ratio) * float(system.molar_mass) / WATER
-            crystals.append(Forms(k, branch, tuple(counts.get(i, 0) for i in ions), bound))
+            made = tuple(counts.get(i, 0) for i in ions)
+            crystals.append(Forms(branch.crystal, own, made, bound, branch))
+    for name, double in DOUBLE_SALTS.items():
+        parts = in_salts(split, double.ions)
+        if parts is not None:
+            made = tuple(double.ions.get(i, 0) for i in ions)
+            crystals.append(Forms(known.solid(name), parts, made, double.water, None, double))
     return Brine(tuple(salts), split, ions, tuple(crystals))
 
 

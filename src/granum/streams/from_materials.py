@@ -23,8 +23,12 @@ from granum.core.compiling import once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.materials.brines import SOLVENT
 from granum.materials.correlation import Correlation
+from granum.materials.double_salts import DOUBLE_SALTS, DoubleSalt, in_salts
 from granum.materials.fluids import Fluid
+from granum.materials.formulas.activity import WATER
+from granum.materials.ions import ions_of
 from granum.materials.library import Library, session, stated
 from granum.materials.solids import Solid
 from granum.materials.solutes import SoluteSystem
@@ -70,6 +74,7 @@ def mixture_of(
     )
     made = [
         _crystal(name, systems)
+        or _double(known, name, systems)
         or _taken_up(name, dissolved)
         or _sublimed(known, name, gases)
         or _inert(known, name, systems)
@@ -189,6 +194,44 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
                     CONDENSED,
                 )
     return None
+
+
+def _double(known: Library, name: str, systems: Mapping[str, SoluteSystem]) -> Species | None:
+    """A crystal of two dissolved salts."""
+    double = DOUBLE_SALTS.get(known.called(name, "solid") or name)
+    made = {n: p for n, s in systems.items() if s.solvent.name == SOLVENT and (p := ions_of(s.formula))}
+    if double is None:
+        return None
+    parts = in_salts(tuple(made.values()), double.ions)
+    if parts is None:
+        raise InputError(
+            _("'{name}' is a double salt: give the two salts that it is made of among the liquids.").format(
+                name=name
+            ),
+            name=name,
+        )
+    masses = {n: x * p.anhydrous_mass for (n, p), x in zip(made.items(), parts, strict=True) if x > 0.0}
+    masses[SOLVENT] = WATER * double.water
+    whole, solid = sum(masses.values()), known.solid(name)
+    return Species(
+        name,
+        tuple((n, mass / whole) for n, mass in masses.items() if mass > 0.0),
+        _polynomial(solid.density),
+        _polynomial(solid.heat_capacity),
+        float(once(partial(_double_enthalpy, double, solid, masses, systems), ROOM)) / whole,
+        whole,
+        CONDENSED,
+    )
+
+
+def _double_enthalpy(
+    double: DoubleSalt, solid: Solid, masses: dict[str, float], systems: Mapping[str, SoluteSystem], T: Any
+) -> Any:
+    """Of a mole of a double salt, less that by its heat capacity from 0 °C on."""
+    solvent = next(iter(systems.values())).solvent
+    dissolved = sum(m * systems[n].solute_enthalpy(T) for n, m in masses.items() if n in systems)
+    water = masses[SOLVENT] * solvent.liquid_enthalpy(T)
+    return dissolved + water - double.heat_of_solution - sum(masses.values()) * solid.enthalpy(T)
 
 
 def taken_up_name(liquid: str) -> str:

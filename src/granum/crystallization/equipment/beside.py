@@ -222,8 +222,8 @@ def _heard(made: Beside, temperature: Any, ratio: Any, solvent: Any, card: Any) 
         known.heard(T[k], there[k])
     for k, form in enumerate(known.crystals):
         if k != made.crystal:
-            same, system = form.salt == own.salt, known.salts[form.salt]
-            of = form.branch.crystal
+            same, of = form.salt == own.salt, form.solid
+            system = of if form.salt is None else known.salts[form.salt]
             owner = Owner.of_property(system.name, "solubility", system.french, of.name, of.french)
             less = logs[:, made.crystal] if same else 0.0
             over = jnp.max(jnp.where(logs[:, k] > 0.0, jnp.exp(logs[:, k] - less), 0.0))

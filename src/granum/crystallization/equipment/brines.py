@@ -7,14 +7,23 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core import flags
 from granum.core.errors import CaseError
 from granum.core.i18n import _
 from granum.crystallization.equipment.roles import Roles, with_crystals
 from granum.materials.brines import SOLVENT, Brine, find_brine
+from granum.materials.correlation import Owner
+from granum.materials.formulas.activity import WATER
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
+
+SLACK = 1e-6
+DOUBLE = (
+    "This double salt would crystallize too: give it among the solids of the mixture, and it does; or add "
+    "water, or keep out one of its salts."
+)
 
 
 class Crystallizing(NamedTuple):
@@ -40,17 +49,18 @@ class Salts(NamedTuple):
     def crystal_masses(self) -> np.ndarray:
         """Of each crystal of the mixture, kg/mol."""
         forms = [self.brine.crystals[k] for k in self.which]
-        dry = self.brine.molar_masses[[f.salt for f in forms]]
-        return dry * np.array([float(f.branch.hydrate_ratio) for f in forms])
+        dry = [f.salts @ self.brine.molar_masses for f in forms]
+        wet = [WATER * f.water if f.branch is None else 0.0 for f in forms]
+        ratios = [1.0 if f.branch is None else float(f.branch.hydrate_ratio) for f in forms]
+        return np.array(dry) * np.array(ratios) + np.array(wet)
 
     @property
     def made_of(self) -> np.ndarray:
         """kg of each liquid of the brine's salts, and of water as the last, in a mole of each crystal."""
         table = np.zeros((len(self.forming), len(self.brine.salts) + 1))
         for row, k in enumerate(self.which):
-            form = self.brine.crystals[k]
-            table[row, form.salt] = self.brine.molar_masses[form.salt]
-            table[row, -1] = self.crystal_masses[row] - table[row, form.salt]
+            table[row, :-1] = self.brine.crystals[k].salts * self.brine.molar_masses
+            table[row, -1] = self.crystal_masses[row] - np.sum(table[row, :-1])
         return table
 
     def dissolved(self, liquid: Any) -> Any:
@@ -60,11 +70,10 @@ class Salts(NamedTuple):
 
     def all_dissolved(self, feed: Stream) -> Any:
         """The liquid of a stream once its crystals of these salts have dissolved, kg/s."""
-        liquid = feed.liquid
+        liquid, there = feed.liquid, jnp.asarray(self.liquids)
         for f, made, mass in zip(self.forming, self.made_of, self.crystal_masses, strict=True):
             share = jnp.sum(feed.solid[f.solid]) / mass
-            salt = self.brine.crystals[f.crystal].salt
-            liquid = liquid.at[self.liquids[salt]].add(share * made[salt]).at[0].add(share * made[-1])
+            liquid = liquid.at[there].add(share * made[: len(self.liquids)]).at[0].add(share * made[-1])
         return liquid
 
     def ions(self, liquid: Any) -> Any:
@@ -74,13 +83,25 @@ class Salts(NamedTuple):
     def left(self, liquid: Any, crystals: Any) -> Any:
         """A liquid after crystals (mol/s) have left it; where one salt is used up, others give its ions."""
         moles = self.dissolved(liquid)
-        for f, n in zip(self.forming, crystals, strict=True):
-            moles = moles.at[self.brine.crystals[f.crystal].salt].add(-n)
+        for k, n in zip(self.which, crystals, strict=True):
+            moles = moles - n * jnp.asarray(self.brine.crystals[k].salts[: len(self.liquids)])
         if len(self.liquids) == 4:
             moles = moles + _exchanged(self.brine, moles)
         masses = jnp.asarray(self.brine.molar_masses[: len(self.liquids)])
         water = jnp.sum(crystals * jnp.asarray(self.made_of[:, -1]))
         return liquid.at[jnp.asarray(self.liquids)].set(moles * masses).at[0].add(-water)
+
+    def heard(self, T: Any, molalities: Any) -> None:
+        """Record where a liquor lies outside what is known, and double salts that would crystallize from it
+        but are not among the solids of the mixture.
+        """
+        self.brine.heard(T, molalities)
+        ratios = jnp.exp(self.brine.saturation(T, molalities))
+        for k, form in enumerate(self.brine.crystals):
+            if form.double is not None and k not in self.which:
+                owner = Owner.of_property(form.name, "solubility", form.solid.french)
+                about = ratios[k] > 1.0 + SLACK, ratios[k], "saturation_ratio", owner, 0.0, 1.0
+                flags.record(flags.EXTRAPOLATED, *about, reason=DOUBLE)
 
     def crystallized(self, feed: Stream, crystals: Any, sizes: LogNormal) -> Any:
         """The solid of a stream with so much of each crystal (mol/s): what is more has the given sizes, what

@@ -11,6 +11,7 @@ from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.crystallization.vessels.crystals import Crystal
 from granum.crystallization.vessels.msmpr import Feed
+from granum.materials.double_salts import DOUBLE_SALTS
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
@@ -58,6 +59,13 @@ def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
         for i, item in enumerate(mixture.liquids)
         if [n for n, _share in item.composition] == [n for n, _share in anhydrous]
     ]
+    if not pure and mixture.solids[s].name in DOUBLE_SALTS:
+        raise CaseError(
+            _(
+                "'{crystal}' is a double salt, of which no kinetics are known here: it forms in "
+                "'crystallization.two_salt_crystallizer' and in evaporators. Name another crystal as 'solid'."
+            ).format(crystal=mixture.solids[s].name)
+        )
     if not anhydrous or not pure:
         raise CaseError(
             _(
@@ -65,10 +73,15 @@ def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
                 "alone is needed."
             ).format(crystal=mixture.solids[s].name, parts=", ".join(n for n, _share in anhydrous) or "—")
         )
-    vapors = [
-        i for i, item in enumerate(mixture.gases) if [n for n, _share in item.composition] == [component]
-    ]
-    return Roles(s, pure[0], w, vapors[0] if vapors else None, sum(share for _name, share in anhydrous))
+    return Roles(s, pure[0], w, vapor_of(mixture, w), sum(share for _name, share in anhydrous))
+
+
+def vapor_of(mixture: Mixture, liquid: int) -> int | None:
+    """The place among the gases of the vapor of a liquid; None where there is none."""
+    component = mixture.liquids[liquid].composition[0][0]
+    return next(
+        (i for i, gas in enumerate(mixture.gases) if [n for n, _x in gas.composition] == [component]), None
+    )
 
 
 def refuse_boiling(vapor: Any, product: Stream, feed: Stream, found: Roles, card: Any) -> None:

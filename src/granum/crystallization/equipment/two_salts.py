@@ -26,7 +26,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.crystallization.equipment.brines import Salts, salts_of
 from granum.crystallization.equipment.in_time import Crystallized
-from granum.crystallization.equipment.roles import given_off, refuse_boiling, roles
+from granum.crystallization.equipment.roles import Roles, given_off, refuse_boiling, vapor_of
 from granum.crystallization.kinds import VesselVolume
 from granum.materials.brines import SOLVENT, Equilibrium, brine
 from granum.numerics.smooth import safe_divide
@@ -46,6 +46,7 @@ class TwoSaltFigures(NamedTuple):
 
     crystal_flow_first: MassFlow
     crystal_flow_second: MassFlow
+    crystal_flow_double: MassFlow
     crystal_purity: Fraction
     solute_mass_fraction_first: MassFraction
     solute_mass_fraction_second: MassFraction
@@ -80,8 +81,11 @@ class TwoSaltCrystallizer(Unit):
     others crystallizes, one salt, or more where the solution has reached an invariant point.
 
     Each salt alone has the solubility of the library, what they do to each other follows from Pitzer's
-    equations; known for sodium and potassium with chloride or nitrate, and for chloride and sulfate of
-    either. Two salts without a common ion make a reciprocal pair: give all four among the liquids, their
+    equations; known for sodium and potassium with chloride or nitrate, for chlorides of sodium, potassium,
+    magnesium and calcium beside each other, and for chlorides and sulfates of sodium, potassium and
+    magnesium. Double salts of these (glaserite, carnallite, kainite, schoenite, leonite, bloedite)
+    crystallize where they are among the solids of the mixture, and are told of where they are not. Two salts
+    without a common ion make a reciprocal pair: give all four among the liquids, their
     ions are exchanged, and what is dissolved of each says no more than how many ions there are. Crystals
     that form are those of the mixture, of the given sizes: there are no kinetics here. The pressure is that
     at which the solution boils at its temperature. Crystals that come with the feed dissolve where the
@@ -116,10 +120,11 @@ class TwoSaltCrystallizer(Unit):
         for name in (self.first_salt, self.second_salt):
             if name and name not in names:
                 raise unknown_name(_("Salt"), name, names)
-        crystallizing = list(dict.fromkeys(salts.brine.crystals[k].salt for k in salts.which))
+        forms = [salts.brine.crystals[k] for k in salts.which]
+        crystallizing = list(dict.fromkeys(f.salt for f in forms if f.salt is not None))
         others = [
             k
-            for k in (*crystallizing, *range(len(names)))
+            for k in dict.fromkeys((*crystallizing, *range(len(names))))
             if names[k] not in (self.first_salt, self.second_salt)
         ]
         first = names.index(self.first_salt) if self.first_salt else others.pop(0)
@@ -139,14 +144,14 @@ class TwoSaltCrystallizer(Unit):
         liquid = salts.left(dissolved, made.crystals)
         sizes = LogNormal(self.crystal_size, self.geometric_standard_deviation)
         solid = salts.crystallized(feed, made.crystals, sizes)
-        salts.brine.heard(T, made.molalities)
+        salts.heard(T, made.molalities)
         unsolved(made.found, type(self).card, reason=_NOT_FOUND)
         product = feed.replace(solid=solid, liquid=liquid, gas=0.0 * feed.gas, temperature=T)
         return Parted(salts, self._chosen(salts), made, product)
 
     def outlets(self, inside: Parted, feed: Stream) -> Crystallized:
         T, product = jnp.asarray(self.temperature, dtype=float), inside.product
-        place = roles(feed.mixture, feed.mixture.solids[inside.salts.forming[0].solid].name, SOLVENT)
+        place = Roles(inside.salts.forming[0].solid, 0, 0, vapor_of(feed.mixture, 0), 1.0)
         vapor = given_off(feed, place, self.evaporation, T)
         if place.vapor is not None:
             refuse_boiling(self.evaporation, product, feed, place, type(self).card)
@@ -157,7 +162,8 @@ class TwoSaltCrystallizer(Unit):
         kinds = [salts.brine.crystals[k].salt for k in salts.which]
         flows = list(left.crystals * jnp.asarray(salts.crystal_masses))
         made = [
-            sum((f for f, k in zip(flows, kinds, strict=True) if k == salt), jnp.zeros(())) for salt in chosen
+            sum((f for f, k in zip(flows, kinds, strict=True) if k == salt), jnp.zeros(()))
+            for salt in (*chosen, None)
         ]
         every = jnp.sum(jnp.stack(flows))
         ratios = salts.brine.saturation(T, left.molalities)
@@ -171,6 +177,7 @@ class TwoSaltCrystallizer(Unit):
         return TwoSaltFigures(
             made[0],
             made[1],
+            made[2],
             jnp.where(every > 0.0, safe_divide(jnp.max(jnp.stack(flows)), every, 1.0), 1.0),
             fractions[0],
             fractions[1],

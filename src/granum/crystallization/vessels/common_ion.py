@@ -4,6 +4,7 @@ forms first, and the isotherms.
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import Annotated, Any, NamedTuple
 
 import jax
@@ -29,21 +30,27 @@ from granum.core.kinds import (
 )
 from granum.core.units import show
 from granum.materials.brines import SOLVENT, Brine, Equilibrium, brine
+from granum.materials.formulas.activity import WATER
 from granum.materials.library import session
 from granum.numerics import find_root
 
 POINTS = 41
 STAGES = 60  # points of a path at one temperature, or between two
-SURPLUS = 3.0  # times the solubility of each salt alone, so that all are there as crystals
+CLOSER = 4  # times that a border between two fields is looked at closer, by so many points each
+NEWTON, STRIDE = 60, 0.3  # steps to a solution saturated with three crystals, and the longest of a logarithm
+FOUND = 1e-8  # how near to saturation such a solution is
 SATURATED = 1e-6  # logarithm of a saturation ratio that counts as none
 # saturation is sought from so much, in mol of charge per kg of water, to so many times the solubility of the
-# salt alone that comes to its own first; far beyond, the equations turn back
-THINNEST, THICKER = 1e-3, 1.6
+# salt alone that comes to its own first, or more where that is not yet saturated; far beyond, the equations
+# turn back
+THINNEST, THICKER, THICKEST = 1e-3, 1.6, 2.6
 
 
 class InvariantPoint(NamedTuple):
-    """A solution saturated with both salts."""
+    """A solution saturated with two crystals, by name."""
 
+    crystal: str
+    crystal_next: str
     molality_first: Molality
     molality_second: Molality
     solute_mass_fraction_first: MassFraction
@@ -64,6 +71,18 @@ class SolubilityBeside(NamedTuple):
     water_activity: WaterActivity
 
 
+class BrineSaturation(NamedTuple):
+    """How near a brine is to saturation: the two crystals that are nearest, and the double salt that is."""
+
+    crystal: str
+    saturation_ratio: PositiveNumber
+    crystal_next: str
+    saturation_next: Ratio
+    crystal_double: str
+    saturation_double: Ratio
+    water_activity: WaterActivity
+
+
 class ReciprocalSaturation(NamedTuple):
     """A solution of two cations and two anions where its first crystal forms."""
 
@@ -75,14 +94,24 @@ class ReciprocalSaturation(NamedTuple):
 
 
 class Isotherm(NamedTuple):
-    """Saturated solutions from one salt alone over the invariant point to the other, as mass fractions, the
-    place of that point, and of each the crystal by its place in the brine.
+    """Saturated solutions from one salt alone over the invariant points to the other, as mass fractions, the
+    places of these points, and of each the crystal by its place in the brine.
     """
 
     first: Annotated[MassFraction, Series("points")]
     second: Annotated[MassFraction, Series("points")]
-    corner: int
+    corners: tuple[int, ...]
     crystals: np.ndarray
+
+
+class Border(NamedTuple):
+    """Where the fields of two crystals of two salts meet: their places in the brine, molalities of the salts,
+    and the share of the second.
+    """
+
+    crystals: tuple[int, int]
+    molalities: np.ndarray
+    share: float
 
 
 class Path(NamedTuple):
@@ -169,36 +198,80 @@ def _saturated(salts: Brine, temperature: Any, directions: Any) -> tuple[Any, An
 
     def one(ions: Any) -> tuple[Any, Any]:
         there = jnp.min(jnp.where(counts > 0.0, ions / jnp.where(counts > 0.0, counts, 1.0), jnp.inf), axis=1)
-        most = jnp.min(jnp.where(there > 0.0, THICKER * alone / jnp.where(there > 0.0, there, 1.0), jnp.inf))
-        root = find_root(lambda t: jnp.max(of(ions, jnp.exp(t))), jnp.log(THINNEST), jnp.log(most))
+        most = jnp.min(jnp.where(there > 0.0, alone / jnp.where(there > 0.0, there, 1.0), jnp.inf))
+        thick = jnp.max(of(ions, THICKER * most)) >= 0.0
+        most = jnp.log(jnp.where(thick, THICKER, THICKEST) * most)
+        root = find_root(lambda t: jnp.max(of(ions, jnp.exp(t))), jnp.log(THINNEST), most)
         return jnp.exp(root.value), of(ions, jnp.exp(root.value))
 
     return jax.vmap(one)(directions)
 
 
-def with_all(salts: Brine, temperature: float, which: tuple[int, ...]) -> Equilibrium:
-    """The solution beside a surplus of some of the salts."""
-    amounts = np.zeros(len(salts.salts))
-    amounts[list(which)] = SURPLUS * np.asarray(salts.alone(jnp.asarray(temperature)))[list(which)]
-    found = parted(salts, temperature, jnp.asarray(amounts @ salts.ions_per_salt))
-    if not bool(found.found):
-        raise ConvergenceError(_("No solution was found that is saturated with all salts."))
-    return found
+def _along(pair: Brine, temperature: float, low: float, high: float) -> tuple[Any, Any, Any]:
+    """Shares of the second salt, molalities of both where the first crystal forms, and the saturations."""
+    shares = np.linspace(low, high, POINTS)
+    parts = np.stack([1.0 - shares, shares], axis=-1)
+    scale, ratios = _saturated(pair, temperature, jnp.asarray(parts @ pair.ions_per_salt[:2]))
+    return shares, parts * np.asarray(scale)[:, None], np.asarray(ratios)
+
+
+def _met(pair: Brine, temperature: float, found: tuple[Any, Any, Any], deep: int) -> list[Border]:
+    """Borders of fields between neighbours of a row of saturated solutions."""
+    shares, molalities, ratios = found
+    first, borders = np.argmax(ratios, axis=1), []
+    for i in np.flatnonzero(np.diff(first)):
+        if deep:
+            inside = _along(pair, temperature, shares[i], shares[i + 1])
+            borders += _met(pair, temperature, inside, deep - 1)
+            continue
+        one, other = int(first[i]), int(first[i + 1])
+        ahead = ratios[i : i + 2, one] - ratios[i : i + 2, other]
+        t = ahead[0] / (ahead[0] - ahead[1])
+        there = (1.0 - t) * molalities[i] + t * molalities[i + 1]
+        borders.append(Border((one, other), there, float((1.0 - t) * shares[i] + t * shares[i + 1])))
+    return borders
+
+
+def borders(pair: Brine, temperature: float) -> list[Border]:
+    """Solutions saturated with two crystals, from the first salt to the second."""
+    return _met(pair, temperature, _along(pair, temperature, 0.0, 1.0), CLOSER)
+
+
+def driest(pair: Brine, temperature: float) -> Border:
+    """That of these over which there is least water vapor: boiling ends here."""
+    found = borders(pair, temperature)
+    if not found:
+        raise ConvergenceError(_("No solution was found that is saturated with two crystals."))
+    ions = jnp.asarray(np.array([b.molalities for b in found]) @ pair.ions_per_salt)
+    activities = [float(pair.water_activity(jnp.asarray(temperature), m)) for m in ions]
+    return found[int(np.argmin(activities))]
 
 
 def isotherm(pair: Brine, temperature: float) -> Isotherm:
     """The saturation lines at a temperature."""
-    both = np.asarray(with_all(pair, temperature, (0, 1)).molalities)
-    one, other = molalities(pair, both)
-    between = other / (one + other)
-    shares = np.sort(np.append(np.linspace(0.0, 1.0, POINTS), between))
-    table = pair.ions_per_salt
-    directions = np.outer(1.0 - shares, table[0]) + np.outer(shares, table[1])
-    scale, ratios = _saturated(pair, temperature, jnp.asarray(directions))
-    t = np.asarray(scale)
-    x, y = fractions(pair, (1.0 - shares) * t, shares * t)
-    corner = int(np.searchsorted(shares, between))
-    return Isotherm(x, y, corner, np.argmax(np.asarray(ratios), axis=1))
+    line = _along(pair, temperature, 0.0, 1.0)
+    met = _met(pair, temperature, line, CLOSER)
+    shares = np.append(line[0], [b.share for b in met])
+    order = np.argsort(shares, kind="stable")
+    molalities = np.append(line[1], np.array([b.molalities for b in met]).reshape(-1, 2), axis=0)[order]
+    crystals = np.append(np.argmax(line[2], axis=1), [b.crystals[0] for b in met])[order]
+    corners = np.flatnonzero(order >= POINTS)
+    x, y = fractions(pair, *molalities.T)
+    return Isotherm(x, y, tuple(int(i) for i in corners), crystals)
+
+
+def _boiled_to(pair: Brine, fed: np.ndarray, end: Border) -> float:
+    """How many times less water there is once a liquor, all of one crystal that it has formed still there, is
+    saturated with two.
+    """
+    ways = [1.0]
+    for form in (pair.crystals[k] for k in end.crystals):
+        taken = np.array(form.salts) - WATER * form.water * end.molalities
+        table = np.stack([fed, -taken], axis=-1)
+        if abs(np.linalg.det(table)) > 1e-12:
+            thicker, formed = np.linalg.solve(table, end.molalities)
+            ways += [float(thicker)] if formed >= 0.0 else []
+    return max(ways)
 
 
 def crystallization_path(pair: Brine, first: float, second: float, hot: float, cold: float) -> Path:
@@ -206,10 +279,10 @@ def crystallization_path(pair: Brine, first: float, second: float, hot: float, c
     water = 1.0 - first - second
     fed = np.array([first, second]) / pair.molar_masses / water
     if fed.min() > 0.0:
-        ends = np.array(molalities(pair, with_all(pair, hot, (0, 1)).molalities))
+        thicker = _boiled_to(pair, fed, driest(pair, hot))
     else:
-        ends = np.asarray(pair.alone(jnp.asarray(hot)))
-    thicker = max(float(end / m) for end, m in zip(ends, fed, strict=True) if m > 0.0)
+        alone = np.asarray(pair.alone(jnp.asarray(hot)))
+        thicker = max(float(end / m) for end, m in zip(alone, fed, strict=True) if m > 0.0)
     scales = np.geomspace(1.0, max(thicker, 1.0), STAGES)
     boiled = liquors(pair, jnp.full(STAGES, hot), jnp.asarray(scales[:, None] * (fed @ pair.ions_per_salt)))
     cooled = liquors(pair, jnp.linspace(hot, cold, STAGES), jnp.tile(boiled[-1], (STAGES, 1)))
@@ -236,17 +309,38 @@ def diagram(salts: Brine, temperature: float, points: int = POINTS) -> Diagram:
     scale, ratios = _saturated(salts, temperature, jnp.asarray(directions))
     masses = _ion_masses(salts)
     water = 1.0 / (np.asarray(scale) * (directions @ masses))
-    corners = []
-    for absent in range(4):
-        three = tuple(k for k in range(4) if k != absent)
-        found = with_all(salts, temperature, three)
-        there = {salts.crystals[i].salt for i, n in enumerate(np.asarray(found.crystals)) if n > 0.0}
-        if len(there) == 3:
-            corners.append(ion_shares(salts, found.molalities))
-    first = np.argmax(np.asarray(ratios), axis=1)
+    logs = np.asarray(ratios)
+    threes = np.array(list(combinations(range(len(salts.crystals)), 3)))
+    # each from the solution that is nearest to saturation with all three
+    nearest = np.argmax(np.min(np.nan_to_num(logs, nan=-np.inf)[:, threes], axis=2), axis=0)
+    begun = jnp.log(jnp.asarray(directions * np.asarray(scale)[:, None])[nearest] + SATURATED)
+    corners, off = (np.asarray(x) for x in _three(salts, temperature, jnp.asarray(threes), begun))
+    first = np.argmax(logs, axis=1)
     square = (points, points)
-    unique = np.unique(np.round(np.array(corners).reshape(-1, 2), 6), axis=0)
+    unique = np.unique(np.round(ion_shares(salts, corners[off < FOUND]), 6), axis=0)
     return Diagram(shares, first.reshape(square), water.reshape(square), unique)
+
+
+@begun
+def _three(salts: Brine, temperature: Any, threes: Any, start: Any) -> tuple[Any, Any]:
+    """Molalities saturated with three crystals, and by how much they are not, or are beyond another."""
+    positive, negative = (jnp.asarray(z, dtype=float) for z in salts.charges)
+    charges = jnp.append(positive, -negative)
+
+    def one(three: Any, x: Any) -> tuple[Any, Any]:
+        def off(x: Any) -> Any:
+            m = jnp.exp(x)
+            return jnp.append(salts.saturation(temperature, m)[three], charges @ m)
+
+        def step(_pass: Any, x: Any) -> Any:
+            return x - jnp.clip(jnp.linalg.solve(jax.jacfwd(off)(x), off(x)), -STRIDE, STRIDE)
+
+        x = jax.lax.fori_loop(0, NEWTON, step, x)
+        over = jnp.max(salts.saturation(temperature, jnp.exp(x)))
+        worst = jnp.maximum(jnp.max(jnp.abs(off(x))), over)
+        return jnp.exp(x), jnp.where(jnp.isfinite(worst), worst, jnp.inf)
+
+    return jax.vmap(one)(threes, start)
 
 
 def _ion_masses(salts: Brine) -> np.ndarray:
@@ -263,12 +357,14 @@ def _ion_masses(salts: Brine) -> np.ndarray:
 def invariant_point(
     temperature: Temperature, first_salt: str = "sodium chloride", second_salt: str = "potassium chloride"
 ) -> InvariantPoint:
-    """Solution that is saturated with two salts at once: molalities, mass fractions, water activity and the
-    pressure of water over it.
+    """Solution that is saturated with two crystals at once: which, molalities, mass fractions, water activity
+    and the pressure of water over it.
 
     Each salt alone dissolves as in the library; what they do to each other follows from Pitzer's equations.
-    On evaporation every solution of the two ends here. Sodium and potassium chloride; chloride and sulfate of
-    either; at room temperature nitrate and chloride of either, sodium and potassium nitrate.
+    Where a double salt has a field of its own there are two such solutions, and this is that with less water
+    over it, where boiling ends. Sodium, potassium, magnesium and calcium chloride; chloride and sulfate of
+    one of the first three; two sulfates of these; at room temperature nitrate and chloride of sodium or
+    potassium, sodium and potassium nitrate.
 
     >>> out = invariant_point(temperature="25 degC")
     >>> round(100 * out.solute_mass_fraction_first, 1)
@@ -276,15 +372,26 @@ def invariant_point(
     """
     pair = pair_of(first_salt, second_salt)
     T = jnp.asarray(temperature, dtype=float)
-    found = with_all(pair, float(temperature), (0, 1))
-    pair.heard(T, found.molalities)
-    one, other = (float(m) for m in molalities(pair, found.molalities))
+    found = driest(pair, float(temperature))
+    ions = jnp.asarray(found.molalities @ pair.ions_per_salt)
+    pair.heard(T, ions)
+    one, other = (float(m) for m in found.molalities)
     x, y = fractions(pair, np.asarray(one), np.asarray(other))
     alone = pair.alone(T)
-    activity = float(pair.water_activity(T, found.molalities))
+    activity = float(pair.water_activity(T, ions))
     water = session().fluid(SOLVENT).vapor_pressure.value(T)
+    first, following = (pair.crystals[k] for k in found.crystals)
     return InvariantPoint(
-        one, other, float(x), float(y), float(alone[0]), float(alone[1]), activity, activity * float(water)
+        first.name,
+        following.name,
+        one,
+        other,
+        float(x),
+        float(y),
+        float(alone[0]),
+        float(alone[1]),
+        activity,
+        activity * float(water),
     )
 
 
@@ -380,4 +487,57 @@ def reciprocal_saturation(
         float(1.0 / (scale[0] * (ions @ _ion_masses(salts)))),
         float(activity),
         float(np.exp(ratios[0][order[1]])),
+    )
+
+
+@procedure(
+    source="harvie1984; greenberg1989; pabalan1987",
+    title="Saturation of a brine with its salts and double salts",
+    typical={
+        "temperature": (288.15, 308.15),
+        "solute_per_solvent_first": (0.0, 0.3),
+        "solute_per_solvent_second": (0.0, 0.3),
+        "solute_per_solvent_third": (0.0, 0.3),
+    },
+)
+def brine_saturation(
+    temperature: Temperature,
+    solute_per_solvent_first: MassRatio,
+    solute_per_solvent_second: MassRatio = 0.0,
+    solute_per_solvent_third: MassRatio = 0.0,
+    first_salt: str = "potassium chloride",
+    second_salt: str = "magnesium chloride",
+    third_salt: str = "",
+) -> BrineSaturation:
+    """Saturation ratio of the crystals that come nearest to it in a brine of up to three salts, and of the
+    double salt that does: glaserite, carnallite, kainite, schoenite, leonite or bloedite.
+
+    The ratio is per ion: its power by how many ions are in a mole of the crystal is the activity product over
+    the solubility product. Beyond one the crystal forms. Two cations and two anions at most of sodium,
+    potassium, magnesium and calcium, chloride, sulfate (not of calcium) and, with sodium and potassium at
+    room temperature, nitrate. No double salt: its ratio is zero.
+
+    >>> out = brine_saturation("25 degC", 0.02, 0.47)
+    >>> out.crystal, bool(out.saturation_ratio > 1.0)
+    ('carnallite', True)
+    """
+    given = {first_salt: solute_per_solvent_first, second_salt: solute_per_solvent_second}
+    given |= {third_salt: solute_per_solvent_third} if third_salt else {}
+    names = list(given)
+    salts, T = brine(names), jnp.asarray(temperature, dtype=float)
+    ratios = np.array([float(x) for x in given.values()])
+    ions = jnp.asarray(ratios / salts.molar_masses[: len(names)] @ salts.ions_per_salt[: len(names)])
+    salts.heard(T, ions)
+    found = np.exp(np.asarray(salts.saturation(T, ions)))
+    first, following = np.argsort(-found)[:2]
+    doubles = [k for k, c in enumerate(salts.crystals) if c.double is not None]
+    double = max(doubles, key=lambda k: found[k], default=None)
+    return BrineSaturation(
+        salts.crystals[first].name,
+        float(found[first]),
+        salts.crystals[following].name,
+        float(found[following]),
+        "" if double is None else salts.crystals[double].name,
+        0.0 if double is None else float(found[double]),
+        float(salts.water_activity(T, ions)),
     )

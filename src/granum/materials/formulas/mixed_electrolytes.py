@@ -13,13 +13,17 @@ from granum.core.kinds import PositiveNumber
 from granum.materials.formulas.activity import WATER
 
 B, ALPHA = 1.2, 2.0
+PAIRED, PAIRS = (
+    1.4,
+    12.0,
+)  # in place of ALPHA where both ions have charges of two or more, and for their pairs
 
 
 class Coefficients(NamedTuple):
     """Those of a mixture at a temperature.
 
     slope: of Debye and Hückel.
-    beta_zero, beta_one, c_phi: of each cation (rows) with each anion.
+    beta_zero, beta_one, c_phi: of each cation (rows) with each anion; beta_two too, for ions that pair.
     theta_cations, psi_cations: of two cations, and of both with each anion; zeros where there is one.
     theta_anions, psi_anions: of two anions, and of both with each cation.
     """
@@ -32,6 +36,7 @@ class Coefficients(NamedTuple):
     psi_cations: Any
     theta_anions: Any
     psi_anions: Any
+    beta_two: Any = 0.0
 
 
 @formula(
@@ -60,6 +65,11 @@ def _unlike(one: int, other: int, I: Any, slope: Any) -> Any:
     return one * other / (4.0 * I) * (J[0] - 0.5 * J[1] - 0.5 * J[2])
 
 
+def _fading(x: Any) -> Any:
+    """How a second virial coefficient of the excess energy fades with ionic strength."""
+    return 2.0 * (1.0 - (1.0 + x) * jnp.exp(-x)) / x**2
+
+
 def excess(m: Any, charges: tuple[tuple[int, ...], tuple[int, ...]], given: Coefficients) -> Any:
     """Excess Gibbs energy over RT for a kilogram of water, at molalities of one or two cations and one or two
     anions, their charges without sign; its derivatives are the logarithms of the activity coefficients.
@@ -68,12 +78,15 @@ def excess(m: Any, charges: tuple[tuple[int, ...], tuple[int, ...]], given: Coef
     z = jnp.array([*positive, *negative], dtype=float)
     I, charge = 0.5 * jnp.sum(m * z**2), 0.5 * jnp.sum(m * z)
     root = jnp.sqrt(I)
-    x = ALPHA * root
-    g = 2.0 * (1.0 - (1.0 + x) * jnp.exp(-x)) / x**2
+    pairing = np.minimum.outer(positive, negative) >= 2
+    g = _fading((np.where(pairing, PAIRED, ALPHA) if pairing.any() else ALPHA) * root)
     cations, anions = m[: len(positive)], m[len(positive) :]
     third = given.c_phi / (2.0 * np.sqrt(np.outer(positive, negative)))
     total = -given.slope * 4.0 * I / B * jnp.log1p(B * root)
-    total = total + 2.0 * cations @ (given.beta_zero + given.beta_one * g + charge * third) @ anions
+    second = given.beta_zero + given.beta_one * g
+    if pairing.any():
+        second = second + given.beta_two * _fading(PAIRS * root)
+    total = total + 2.0 * cations @ (second + charge * third) @ anions
     if len(positive) == 2:
         mixing = 2.0 * (given.theta_cations + _unlike(*positive, I, given.slope))
         total = total + cations[0] * cations[1] * (mixing + anions @ given.psi_cations)
