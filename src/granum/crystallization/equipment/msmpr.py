@@ -42,6 +42,7 @@ from granum.crystallization.equipment.beside import (
     water_activity_beside,
 )
 from granum.crystallization.equipment.boiling import Boiling, boiling_of
+from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
     LARGEST,
@@ -127,7 +128,7 @@ STEADY: Limits = {
 }
 
 
-class _Continuous(Stirred, Unit):
+class _Continuous(Colliding, Stirred, Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
     temperature: Temperature
@@ -178,6 +179,7 @@ class _Continuous(Stirred, Unit):
             per_crystal,
             self.nucleus_size,
             self._removal(),
+            self.collisions,
         )
 
     def _solid(self, feed: Stream, found: Roles, state: Any) -> Any:
@@ -190,7 +192,8 @@ class _Continuous(Stirred, Unit):
         # once more where its flags are heard: inside what is compiled they are lost
         self.solubility(self.held_at(feed.mixture))
         state = self._steady(feed, found, *self._evaporation(feed, found))
-        unsolved(state.converged, type(self).card, reason=_UNSOLVED)
+        reason = _UNSOLVED if self.collisions is None else UNSOLVED_CROWD
+        unsolved(state.converged, type(self).card, reason=reason)
         there = self.held_at(feed.mixture), state.solute_per_solvent, state.solvent
         heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         return state, found
@@ -313,7 +316,8 @@ class Msmpr(_Evaporating, InTime):
     the mixture, and what of them would crystallize too is told; a law of one's own is taken as that of this
     liquor. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
     fast enough to keep all crystals off the bottom. A viscosity that is not known counts there as that of
-    water.
+    water. With an ``agglomeration_kernel`` or a ``breakage_law`` (attrition is one) crystals also meet and
+    break, in classes of 9 % of their size or less; agglomerates count as crystals of their volume.
     """
 
 
