@@ -78,7 +78,9 @@ def test_agglomeration_alone_against_the_closed_form(monkeypatch):
     held = (cuts[:-1] + 1) * np.exp(-cuts[:-1]) - (cuts[1:] + 1) * np.exp(-cuts[1:])
     mean, born, T = 1e-12, 1e6, 1.0
     kernel = ConstantKernel(T * VOLUME / (born * TIME * TIME))
-    classes, (numbers, cubes) = rest(kernel, None, born * share, 1e-10, (mean * held / share) ** (1 / 3), 5e-4)
+    classes, (numbers, cubes) = rest(
+        kernel, None, born * share, 1e-10, (mean * held / share) ** (1 / 3), 5e-4
+    )
     assert float(jnp.sum(numbers)) == pytest.approx(born * TIME * (np.sqrt(1 + 2 * T) - 1) / T, rel=0.01)
 
     def volume(u):
@@ -95,7 +97,7 @@ def test_agglomeration_alone_against_the_closed_form(monkeypatch):
 def test_number_that_breakage_makes():
     """A frequency as the cube of size, two fragments: m₀ = τ (B + s m₃), and growth alone makes volume."""
     frequency, size = 2e-5, 5e-4
-    classes, (numbers, cubes) = rest(None, PowerBreakage(frequency, size), 1e6, 1e-7)
+    _classes, (numbers, cubes) = rest(None, PowerBreakage(frequency, size), 1e6, 1e-7)
     broken = frequency / size**3 * float(jnp.sum(cubes))
     assert float(jnp.sum(numbers)) == pytest.approx(TIME * (1e6 + broken), rel=0.01)
     _classes, (_numbers, chipped) = rest(None, Attrition(frequency, size), 1e6, 1e-7)
@@ -121,7 +123,9 @@ def test_random_vessels_close_and_gradients_agree():
         solute = rng.uniform(0.2, 0.6)
         found = vessel(kernel, breakage, solute, 10 ** rng.uniform(-3.0, 1.2), seeds)
         assert bool(found.converged), number
-        assert float(jnp.sum(found.crystals) + found.solute) == pytest.approx(solute + float(jnp.sum(seeds)), abs=1e-12)
+        assert float(jnp.sum(found.crystals) + found.solute) == pytest.approx(
+            solute + float(jnp.sum(seeds)), abs=1e-12
+        )
         assert float(jnp.min(found.crystals)) >= -1e-9
 
     def over(coefficient):

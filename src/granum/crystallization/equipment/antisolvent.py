@@ -42,8 +42,8 @@ from granum.crystallization.equipment.batch import (
     Grown,
     thermal,
 )
-from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.beside import refuse_other_system
+from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.msmpr import STEADY
 from granum.crystallization.equipment.roles import (
     Roles,

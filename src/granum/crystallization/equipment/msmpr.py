@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -178,7 +179,7 @@ class _Continuous(Colliding, Stirred, Unit):
             evaporation,
             per_crystal,
             self.nucleus_size,
-            self._removal(),
+            self._removal(feed, found, evaporation),
             self.collisions,
         )
 
@@ -269,7 +270,7 @@ class _Continuous(Colliding, Stirred, Unit):
         """The vapor at the pressure over the suspension, which is that of the pure solvent by default."""
         return vapor
 
-    def _removal(self) -> Removal | None:
+    def _removal(self, feed: Stream, found: Roles, evaporation: Any) -> Removal | None:
         """Fines dissolved and product classified; none by default."""
         return None
 
@@ -322,32 +323,6 @@ class Msmpr(_Evaporating, InTime):
 
 
 @equipment(
-    "classified_crystallizer",
-    source="randolph1988, ch. 8",
-    title="Continuous crystallizer with fines dissolution and classified product (R–Z)",
-    equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau}",
-)
-class ClassifiedCrystallizer(_Evaporating):
-    """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts
-    (R–Z model).
-
-    A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product
-    removal evens the sizes. ``oslo_crystallizer`` is the fluidized bed whose sizes follow from its upflow.
-    The dissolved fines return with their solute, whose heat cancels.
-    """
-
-    fines_removal_ratio: PositiveNumber = 1.0
-    fines_cut_size: Distance = 0.0
-    product_removal_ratio: PositiveNumber = 1.0
-    product_cut_size: Distance = 1.0
-
-    def _removal(self) -> Removal:
-        return Removal(
-            self.fines_removal_ratio, self.fines_cut_size, self.product_removal_ratio, self.product_cut_size
-        )
-
-
-@equipment(
     "vacuum_crystallizer",
     source="mullin2001, ch. 8; randolph1988, ch. 4",
     title="Continuous vacuum crystallizer (adiabatic flash)",
@@ -371,6 +346,8 @@ class VacuumCrystallizer(_Continuous, InTime):
     heat_duty: Power = 0.0
     elevation_linear: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
     elevation_quadratic: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
+
+    instead: ClassVar[Mapping[str, str]] = {"pressure": "temperature"}
 
     limits: ClassVar[Limits] = _Continuous.limits | {
         "ejector": Limit("pressure ratio of one ejector", 0.0, 10.0, "dimensionless", "perry2008, § 10"),

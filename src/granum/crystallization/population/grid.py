@@ -189,7 +189,9 @@ def events(collisions: Collisions, numbers: Any, cubes: Any, low: Any, high: Any
         kernel = collisions.agglomeration(size[:, None], size[None, :]) / volume
         j, k = jnp.triu_indices(n)
         rate = kernel[j, k] * jnp.where(j == k, 0.5, 1.0)
-        pairs = [(a[j] * b[k], x[j] + y[k]) for a, x in ((near, p), (far, q)) for b, y in ((near, p), (far, q))]
+        pairs = [
+            (a[j] * b[k], x[j] + y[k]) for a, x in ((near, p), (far, q)) for b, y in ((near, p), (far, q))
+        ]
         met, made = (jnp.concatenate(parts) for parts in zip(*pairs, strict=True))
         met = jnp.tile(rate, 4) * met * jnp.maximum(made / p[-1], 1.0)
         made = jnp.minimum(made, p[-1])

@@ -154,7 +154,9 @@ def _held(low: Any, high: Any, entry: Any, emptied: Any, growth: Any, level: Any
     early, late, come = (
         jnp.exp(-jnp.clip(way / length, 0.0, SPENT)) for way in (level - low, turn - low, turn - entry)
     )
-    passed = [(early * a + late * b) / emptied for a, b in zip(_piece(level, turn, length), after, strict=True)]
+    passed = [
+        (early * a + late * b) / emptied for a, b in zip(_piece(level, turn, length), after, strict=True)
+    ]
     return tuple(passed), tuple(come * part / emptied for part in after)
 
 

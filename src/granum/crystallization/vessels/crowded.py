@@ -19,7 +19,9 @@ CLOSE, ROUGH, NEAR, CLOSED = 1e-11, 1e-3, 1e-9, 1e-6
 TRYING, NARROWING, ALONE, DONE = range(4)
 LEAST, FAR = 1e-14, 30.0
 # shares of the supersaturation at which a change of sign is sought, close where steady states crowd
-TRIALS = np.concatenate([np.geomspace(1e-7, 0.1, 14), np.linspace(0.2, 0.8, 4), 1.0 - np.geomspace(0.1, 1e-6, 6)])
+TRIALS = np.concatenate(
+    [np.geomspace(1e-7, 0.1, 14), np.linspace(0.2, 0.8, 4), 1.0 - np.geomspace(0.1, 1e-6, 6)]
+)
 
 State = tuple[Any, Any]
 
@@ -112,7 +114,9 @@ def steady_crowd(
             jnp.asarray(jnp.inf),
             jnp.asarray(jnp.inf),
         )
-        *_rest, share, state, _lower, upper, error, value = lax.while_loop(lambda c: c[1] != DONE, step, begin)
+        *_rest, share, state, _lower, upper, error, value = lax.while_loop(
+            lambda c: c[1] != DONE, step, begin
+        )
         some = possible & jnp.isfinite(upper[0])
         good = (error <= CLOSE) & (~some | (jnp.abs(value) < CLOSED))
         return jnp.concatenate([share[None], *state]), (some, good)

@@ -18,7 +18,14 @@ from jax import lax
 
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.grid import Collisions
-from granum.crystallization.population.standing import Classes, Outflow, Standing, classes_for, count_of, round_of
+from granum.crystallization.population.standing import (
+    Classes,
+    Outflow,
+    Standing,
+    classes_for,
+    count_of,
+    round_of,
+)
 from granum.crystallization.vessels.crowded import State, steady_crowd
 from granum.crystallization.vessels.crystals import Crystal, crystals_at, ratio_left
 from granum.numerics.roots import find_root
@@ -191,7 +198,9 @@ def steady_msmpr(
         soluble = at(left)
         G = growth(c, soluble, temperature)
         held = 1.0
-        if removal is not None and collisions is None:  # the vessel holds another concentration than the product
+        if (
+            removal is not None and collisions is None
+        ):  # the vessel holds another concentration than the product
             length = jnp.maximum(G * volume / flow, 1e-15)
             held = removal.beyond(0.0, nucleus_size, length, held=True) / removal.beyond(
                 0.0, nucleus_size, length
