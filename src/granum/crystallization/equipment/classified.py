@@ -47,8 +47,8 @@ NO_CUT = (
     "heavier than their liquor."
 )
 CROSSED = (
-    "The cut of the fines must be below that of the product: give a larger settling area or less fines removal, "
-    "or a faster upflow in the leg."
+    "The cut of the fines must be below that of the product: give a larger settling area or less fines "
+    "removal, or a faster upflow in the leg."
 )
 DILUTE = 0.999  # void fraction behind the baffle, where only fines are
 
@@ -90,11 +90,11 @@ class ClassifiedCrystallizer(Evaporative):
 
     A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product
     removal evens the sizes. ``oslo_crystallizer`` is the fluidized bed whose sizes follow from its upflow.
-    The dissolved fines return with their solute, whose heat cancels. Either the cuts are given, or they follow
-    from upflows in saturated liquor (a draft tube with baffle): that of the fines from the ``settling_area``
-    behind the baffle, through which R − 1 times the flow of the feed rises with little but fines in it; that
-    of the product from ``elutriation_flow`` and ``leg_diameter`` of the leg, crowded by ``void_fraction_leg``.
-    What is fed to the leg comes back over its top: it is a loop, and no feed of its own.
+    The dissolved fines return with their solute, whose heat cancels. Either the cuts are given, or they
+    follow from upflows in saturated liquor (a draft tube with baffle): that of the fines from the
+    ``settling_area`` behind the baffle, through which R − 1 times the flow of the feed rises with little but
+    fines in it; that of the product from ``elutriation_flow`` and ``leg_diameter`` of the leg, crowded by
+    ``void_fraction_leg``. What rises in the leg is liquor of the vessel, and no feed of its own.
     """
 
     fines_removal_ratio: PositiveNumber = 1.0

@@ -15,9 +15,9 @@ Kernel = Annotated[Any, Law("agglomeration_kernel")]
 BreakageLaw = Annotated[Any, Law("breakage_law")]
 
 UNSOLVED_CROWD = (
-    "No steady suspension was found in which the crystals made are those that the balance leaves: they meet or "
-    "break too often. Check the unit of the kernel, give larger size classes, or a smaller kernel or breakage "
-    "frequency."
+    "No steady suspension was found in which the crystals made are those that the balance leaves: they meet "
+    "or break too often. Check the unit of the kernel, give larger size classes, or a smaller kernel or "
+    "breakage frequency."
 )
 
 

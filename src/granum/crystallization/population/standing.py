@@ -1,8 +1,9 @@
 """The steady population of a mixed vessel in which crystals grow, agglomerate and break.
 
-Newborn come in at the ends of the classes, shared between the two around them so that their number and volume
-are kept (fixed pivots). From there on the population falls exponentially in size, exactly, so that growth adds
-no numerical diffusion and nuclei without collisions are those of the ideal vessel whatever the classes.
+Newborn come in at the ends of the classes, shared between the two around them so that their number and
+volume are kept (fixed pivots). From there on the population falls exponentially in size, exactly, so that
+growth adds no numerical diffusion and nuclei without collisions are those of the ideal vessel whatever the
+classes.
 """
 
 from __future__ import annotations
@@ -72,8 +73,8 @@ def count_of(outflow: Outflow | None) -> int:
 
 
 class Standing(NamedTuple):
-    """A population in its classes: crystals that grow past a lower end per second with the newborn that come in
-    there, those that come in from outside and where, how fast a class is emptied (1/s), growth rate (m/s),
+    """A population in its classes: crystals that grow past a lower end per second with the newborn that come
+    in there, those that come in from outside and where, how fast a class is emptied (1/s), growth rate (m/s),
     numbers and cubes in the vessel (m³).
     """
 
@@ -90,8 +91,8 @@ class Standing(NamedTuple):
         """Cubes above a size that leave as product, over the turnover of the liquor, m³."""
         low, high, _rates, shares = self.classes
         place = jnp.clip(jnp.searchsorted(low, level, side="right") - 1, 0, low.shape[0] - 1)
-        own = (v[place] for v in (low, high, self.entry, self.emptied))
-        first, second = _held(*own, self.growth, level)
+        entry, emptied = self.entry[place], self.emptied[place]
+        first, second = _held(low[place], high[place], entry, emptied, self.growth, level)
         part = first[1] * self.passing[place] + second[1] * self.entering[place]
         above = jnp.append(jnp.cumsum((shares * self.cubes)[::-1])[::-1], 0.0)[place + 1]
         return shares[place] * part + above
@@ -135,8 +136,8 @@ def round_of(
         newborn = newborn + sum(part @ there for part, there in zip(met.broken, alone, strict=True))
         newborn = jnp.linalg.solve(jnp.eye(low.shape[0]) - onward, newborn)
     passing = passing + grown @ newborn
-    held = (a * passing + b * entering for a, b in zip(first, second, strict=True))
-    return Standing(classes, entry, entering, passing, emptied, speed, *held)
+    numbers, cubes = (a * passing + b * entering for a, b in zip(first, second, strict=True))
+    return Standing(classes, entry, entering, passing, emptied, speed, numbers, cubes)
 
 
 def _surviving(there: Any, age: Any) -> Any:

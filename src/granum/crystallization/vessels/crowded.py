@@ -27,8 +27,8 @@ State = tuple[Any, Any]
 
 
 class Crowded(NamedTuple):
-    """Share of the supersaturation that is left, numbers and cubes by class, whether crystals form, and whether
-    all that was found.
+    """Share of the supersaturation that is left, numbers and cubes by class, whether crystals form, and
+    whether all that was found.
     """
 
     share: Any
@@ -58,14 +58,13 @@ def steady_crowd(
     the lowest until the excess changes sign, then by false position between the two in the logarithm of the
     share, which is nearly straight, and at last as closely as it goes.
     """
-    trials = jnp.asarray(TRIALS)
 
     def population(share: Any, born: Any, start: State, tolerance: Any) -> tuple[State, Any]:
         unit = size(share)
 
         def residual(u: Any) -> Any:
             state = (u[:count] * unit[0], u[count:] * unit[1])
-            made = following(share, born, tuple(jnp.maximum(v, 0.0) for v in state))
+            made = following(share, born, (jnp.maximum(state[0], 0.0), jnp.maximum(state[1], 0.0)))
             return jnp.concatenate([(made[0] - state[0]) / unit[0], (made[1] - state[1]) / unit[1]])
 
         begin = METHOD.begin(jnp.concatenate([start[0] / unit[0], start[1] / unit[1]]))

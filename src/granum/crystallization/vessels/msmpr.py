@@ -267,7 +267,7 @@ def steady_msmpr(
             return jnp.log(jnp.maximum(made, 1e-300)) - jnp.log(jnp.maximum(cubes_wanted(c), 1e-300))
 
         def typical(c: Any) -> State:
-            _product, flow, G, B, _magma = state(c)
+            _product, flow, _growth, B, _magma = state(c)
             number = (jnp.sum(start_numbers) + B * volume) * volume / flow
             cubes = jnp.maximum(grown(c) / crystal.mass_per_cube * volume / flow, cubes_wanted(c))
             return jnp.where(number > 0.0, number, 1.0), jnp.where(cubes > 0.0, cubes, 1.0)
