@@ -91,7 +91,7 @@ class ClassifiedCrystallizer(Evaporative):
     A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product
     removal evens the sizes. ``oslo_crystallizer`` is the fluidized bed whose sizes follow from its upflow.
     The dissolved fines return with their solute, whose heat cancels. Either the cuts are given, or they
-    follow from upflows in saturated liquor (a draft tube with baffle): that of the fines from the
+    follow from the upflow of saturated liquor (a draft tube with baffle): that of the fines from the
     ``settling_area`` behind the baffle, through which R − 1 times the flow of the feed rises with little but
     fines in it; that of the product from ``elutriation_flow`` and ``leg_diameter`` of the leg, crowded by
     ``void_fraction_leg``. What rises in the leg is liquor of the vessel, and no feed of its own.
