@@ -80,11 +80,13 @@ def steady_crowd(
         def step(carry: tuple) -> tuple:
             number, phase, share, state, below, above, _error, _value = carry
             born = jnp.where(phase == ALONE, 0.0, 1.0)
-            state, error = population(share, born, state, jnp.where(phase == TRYING, ROUGH, CLOSE))
+            tolerance = jnp.where(phase == TRYING, ROUGH, CLOSE)
+            state, error = population(share, born, state, tolerance)
             narrowing = phase == NARROWING
             # where fragments outgrow their losses no population is steady, and a linear balance answers with
             # one below nothing: far too many crystals
-            steady = jnp.min(state[1]) >= -0.01 * jnp.max(jnp.abs(state[1]))
+            slack = 0.01 * jnp.max(jnp.abs(state[1])) + 10.0 * tolerance * size(share)[1]
+            steady = jnp.min(state[1]) >= -slack
             value = jnp.where(steady, excess(share, state), FAR)
             here, lacking = jnp.stack([jnp.log(share), value]), value < 0.0
             # the end of false position that stays counts half (Illinois), lest it stay for good
