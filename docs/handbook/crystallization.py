@@ -74,6 +74,24 @@ small = c.undersize_mass_fraction(0.5 * float(median), growth.value, "3.38 hour"
 volume_for_half = 1.5**5  # the inverse of τ to the power 1/5
 spared = 0.1  # of the nuclei, when fines are dissolved
 with_fines_dissolved = spared ** (-1 / (2 + 3))
+
+CLASSIFIED = "crystallization.classified_crystallizer"
+LEG = {"elutriation_flow": "3 m3/h", "leg_diameter": "20 cm"}
+baffled = {
+    area: alone(CLASSIFIED, settling_area=f"{area} m2", **LEG).solve().units["classified_crystallizer"].values
+    for area in (0.5, 1.5)
+}
+MIXED = "crystallization.msmpr"
+SHEAR = {"law": "turbulent_kernel", "shear_rate": "200 1/s"}
+CHIPS = {"law": "attrition", "breakage_frequency": "1e-5 1/s", "reference_size": "500 um"}
+joined = {
+    share: alone(MIXED, agglomeration_kernel=SHEAR | {"capture_efficiency": share})
+    .solve()
+    .units["msmpr"]
+    .values
+    for share in (0.0, 2e-6, 4e-6)
+}
+chipped = alone(MIXED, breakage_law=CHIPS).solve().units["msmpr"].values
 volume_instead = float(c.dominant_size_changed(1.0, 10.0, 1.0, 2))
 density_line = fit["magma_density"]
 

@@ -15,8 +15,9 @@ from granum.crystallization.equipment.batch import (
     JacketedBatchCrystallizer,
     VacuumBatchCrystallizer,
 )
+from granum.crystallization.equipment.classified import ClassifiedCrystallizer
 from granum.crystallization.equipment.controlled import ControlledBatchCrystallizer
-from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
+from granum.crystallization.equipment.msmpr import Msmpr, VacuumCrystallizer
 from granum.crystallization.equipment.needles import NeedleBatchCrystallizer, NeedleCrystallizer
 from granum.crystallization.equipment.oslo import OsloCrystallizer
 from granum.crystallization.equipment.tubes import (

@@ -16,7 +16,8 @@ from granum.crystallization.formulas.classified import production_classifying
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
-from granum.crystallization.vessels.classified_bed import Upflow, steady_bed
+from granum.crystallization.formulas.upflow import Upflow
+from granum.crystallization.vessels.classified_bed import steady_bed
 from granum.crystallization.vessels.crystals import Crystal
 from granum.crystallization.vessels.msmpr import Feed
 

@@ -25,7 +25,8 @@ from granum.core.errors import ApplicabilityError, InputError
 from granum.crystallization.charts import size_distribution_chart, solubility_chart
 from granum.crystallization.charts_solutions import solubilities_chart
 from granum.crystallization.equipment.batch import BatchCrystallizer
-from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
+from granum.crystallization.equipment.classified import ClassifiedCrystallizer
+from granum.crystallization.equipment.msmpr import Msmpr, VacuumCrystallizer
 from granum.crystallization.formulas.agglomeration import agglomeration_coefficient_brownian
 from granum.crystallization.formulas.classified import (
     population_density_classified,

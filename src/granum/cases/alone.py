@@ -78,6 +78,9 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
             put(described, word, _read(word, value))
         else:
             _say(thing, found, own, word, _read(word, value))
+    for word, displaced in thing.instead.items():
+        if (words or {}).get(word, "") != "" and displaced not in (words or {}):
+            own.pop(displaced, None)
     _drop_what_is_gone(mixture, feeds, words or {})
     _drop_laws_of({name for _phase, name in before - _present(mixture)}, own, words or {})
     for port, feed in feeds.items():

@@ -62,6 +62,13 @@ from granum.crystallization.equipment.brines import (
     Crystallizing as Crystallizing,
     Salts as Salts,
 )
+from granum.crystallization.equipment.classified import (
+    ClassifiedCrystallizer as ClassifiedCrystallizer,
+    ClassifiedFigures as ClassifiedFigures,
+)
+from granum.crystallization.equipment.colliding import (
+    Colliding as Colliding,
+)
 from granum.crystallization.equipment.controlled import (
     ControlledBatchCrystallizer as ControlledBatchCrystallizer,
     ControlledBatchFigures as ControlledBatchFigures,
@@ -91,7 +98,6 @@ from granum.crystallization.equipment.layer_melt import (
     Staged as Staged,
 )
 from granum.crystallization.equipment.msmpr import (
-    ClassifiedCrystallizer as ClassifiedCrystallizer,
     CrystallizerFigures as CrystallizerFigures,
     Evaporative as Evaporative,
     Msmpr as Msmpr,
@@ -398,6 +404,10 @@ from granum.crystallization.formulas.tubes import (
     oscillatory_flow as oscillatory_flow,
     oscillatory_loss as oscillatory_loss,
 )
+from granum.crystallization.formulas.upflow import (
+    Upflow as Upflow,
+    cut_size_upflow as cut_size_upflow,
+)
 from granum.crystallization.formulas.wash_columns import (
     WashFront as WashFront,
     impurity_ratio_wash_column as impurity_ratio_wash_column,
@@ -432,8 +442,8 @@ from granum.crystallization.population.composition import (
     Trial as Trial,
 )
 from granum.crystallization.population.grid import (
-    Classes as Classes,
     Collisions as Collisions,
+    Events as Events,
 )
 from granum.crystallization.population.lagrangian import (
     Course as Course,
@@ -474,6 +484,11 @@ from granum.crystallization.population.rivals import (
     Row as Row,
     State as State,
 )
+from granum.crystallization.population.standing import (
+    Classes as Classes,
+    Outflow as Outflow,
+    Standing as Standing,
+)
 from granum.crystallization.recipes import (
     CoolingRecipe as CoolingRecipe,
     Processes as Processes,
@@ -488,7 +503,6 @@ from granum.crystallization.vessels.batch import (
 )
 from granum.crystallization.vessels.classified_bed import (
     Bed as Bed,
-    Upflow as Upflow,
 )
 from granum.crystallization.vessels.common_ion import (
     Border as Border,
@@ -503,6 +517,9 @@ from granum.crystallization.vessels.common_ion import (
     invariant_point as invariant_point,
     reciprocal_saturation as reciprocal_saturation,
     solubility_beside_salt as solubility_beside_salt,
+)
+from granum.crystallization.vessels.crowded import (
+    Crowded as Crowded,
 )
 from granum.crystallization.vessels.crystals import (
     Crystal as Crystal,

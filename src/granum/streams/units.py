@@ -101,6 +101,7 @@ class Unit(eqx.Module):
         unknown.
     """
 
+    instead: ClassVar[Mapping[str, str]] = {}  # a setting said, and the one of an example that it displaces
     limits: ClassVar[Limits] = {}
     utilities: ClassVar[Utilities] = {}
     known_axes: ClassVar[tuple[str, ...]] = ()

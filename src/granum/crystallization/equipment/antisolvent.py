@@ -43,6 +43,7 @@ from granum.crystallization.equipment.batch import (
     thermal,
 )
 from granum.crystallization.equipment.beside import refuse_other_system
+from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.msmpr import STEADY
 from granum.crystallization.equipment.roles import (
     Roles,
@@ -155,7 +156,7 @@ def antisolvent_share(met: Stream, found: Roles, second: int) -> Any:
     title="Continuous crystallizer with antisolvent (drowning out)",
     equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right),\quad C^* = C^*(T, w)",
 )
-class AntisolventCrystallizer(Unit):
+class AntisolventCrystallizer(Colliding, Unit):
     """Continuous crystallizer with mixed suspension and mixed product removal, into which an antisolvent
     runs that lowers the solubility.
 
@@ -203,8 +204,10 @@ class AntisolventCrystallizer(Unit):
             AdditiveVolumes(densities[found.solute], mixed, apart),
             mixture.edges,
             nucleus_size=self.nucleus_size,
+            collisions=self.collisions,
         )
-        unsolved(state.converged, type(self).card, reason=UNSOLVED)
+        reason = UNSOLVED if self.collisions is None else UNSOLVED_CROWD
+        unsolved(state.converged, type(self).card, reason=reason)
         return Drowned(state, met, found, second)
 
     def outlets(self, inside: Drowned, feed: Stream, antisolvent: Stream) -> BatchOutlets:

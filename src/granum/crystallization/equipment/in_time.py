@@ -97,7 +97,12 @@ class InTime(Dynamic):
     def _crystal(self, mixture: Any, found: Roles) -> Crystal:
         return crystal_of(mixture, found, self.held_at(mixture), self.volume_shape_factor)
 
+    @abstractmethod
+    def steady_only(self) -> None:
+        """Refuse what is known of the steady state alone."""
+
     def initial_holdup(self, mixture: Any) -> Held:
+        self.steady_only()
         found = roles(mixture, self.solid, self.solvent)
         crystal, x = self._crystal(mixture, found), found.solute_fraction
         T = self.held_at(mixture)
@@ -134,6 +139,7 @@ class InTime(Dynamic):
         )
 
     def steady_holdup(self, inlets: Mapping[str, Stream]) -> Held:
+        self.steady_only()
         feed = inlets["feed"]
         state, found = self.inside(feed)
         crystal, x = self._crystal(feed.mixture, found), found.solute_fraction

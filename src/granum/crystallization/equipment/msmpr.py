@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -42,6 +43,7 @@ from granum.crystallization.equipment.beside import (
     water_activity_beside,
 )
 from granum.crystallization.equipment.boiling import Boiling, boiling_of
+from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
     LARGEST,
@@ -127,7 +129,7 @@ STEADY: Limits = {
 }
 
 
-class _Continuous(Stirred, Unit):
+class _Continuous(Colliding, Stirred, Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
     temperature: Temperature
@@ -177,7 +179,8 @@ class _Continuous(Stirred, Unit):
             evaporation,
             per_crystal,
             self.nucleus_size,
-            self._removal(),
+            self._removal(feed, found, evaporation),
+            self.collisions,
         )
 
     def _solid(self, feed: Stream, found: Roles, state: Any) -> Any:
@@ -190,7 +193,8 @@ class _Continuous(Stirred, Unit):
         # once more where its flags are heard: inside what is compiled they are lost
         self.solubility(self.held_at(feed.mixture))
         state = self._steady(feed, found, *self._evaporation(feed, found))
-        unsolved(state.converged, type(self).card, reason=_UNSOLVED)
+        reason = _UNSOLVED if self.collisions is None else UNSOLVED_CROWD
+        unsolved(state.converged, type(self).card, reason=reason)
         there = self.held_at(feed.mixture), state.solute_per_solvent, state.solvent
         heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         return state, found
@@ -266,7 +270,7 @@ class _Continuous(Stirred, Unit):
         """The vapor at the pressure over the suspension, which is that of the pure solvent by default."""
         return vapor
 
-    def _removal(self) -> Removal | None:
+    def _removal(self, feed: Stream, found: Roles, evaporation: Any) -> Removal | None:
         """Fines dissolved and product classified; none by default."""
         return None
 
@@ -313,34 +317,9 @@ class Msmpr(_Evaporating, InTime):
     the mixture, and what of them would crystallize too is told; a law of one's own is taken as that of this
     liquor. The vessel is as high as wide; without a ``rotation_speed`` its stirrer turns just
     fast enough to keep all crystals off the bottom. A viscosity that is not known counts there as that of
-    water.
+    water. With an ``agglomeration_kernel`` or a ``breakage_law`` (attrition is one) crystals also meet and
+    break, in classes of 9 % of their size or less; agglomerates count as crystals of their volume.
     """
-
-
-@equipment(
-    "classified_crystallizer",
-    source="randolph1988, ch. 8",
-    title="Continuous crystallizer with fines dissolution and classified product (R–Z)",
-    equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau}",
-)
-class ClassifiedCrystallizer(_Evaporating):
-    """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts
-    (R–Z model).
-
-    A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product
-    removal evens the sizes. ``oslo_crystallizer`` is the fluidized bed whose sizes follow from its upflow.
-    The dissolved fines return with their solute, whose heat cancels.
-    """
-
-    fines_removal_ratio: PositiveNumber = 1.0
-    fines_cut_size: Distance = 0.0
-    product_removal_ratio: PositiveNumber = 1.0
-    product_cut_size: Distance = 1.0
-
-    def _removal(self) -> Removal:
-        return Removal(
-            self.fines_removal_ratio, self.fines_cut_size, self.product_removal_ratio, self.product_cut_size
-        )
 
 
 @equipment(
@@ -367,6 +346,8 @@ class VacuumCrystallizer(_Continuous, InTime):
     heat_duty: Power = 0.0
     elevation_linear: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
     elevation_quadratic: TemperatureDifference | None = eqx.field(kw_only=True, default=None)
+
+    instead: ClassVar[Mapping[str, str]] = {"pressure": "temperature"}
 
     limits: ClassVar[Limits] = _Continuous.limits | {
         "ejector": Limit("pressure ratio of one ejector", 0.0, 10.0, "dimensionless", "perry2008, § 10"),

@@ -47,11 +47,12 @@ from granum.crystallization.equipment.roles import (
     given_off,
     refuse_boiling,
     roles,
+    saturated_at,
     with_crystals,
 )
+from granum.crystallization.formulas.upflow import Upflow
 from granum.crystallization.kinds import Growth, Nucleation, Solubility
-from granum.crystallization.vessels.classified_bed import Bed, Upflow, steady_bed
-from granum.crystallization.vessels.crystals import crystals_at, saturation
+from granum.crystallization.vessels.classified_bed import Bed, steady_bed
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
@@ -143,24 +144,10 @@ class OsloCrystallizer(Unit):
         T = self.temperature
         return solubility_beside(self.solubility, feed.mixture, found, feed.liquid, T, left)
 
-    def _saturated(self, feed: Stream, found: Roles) -> Stream:
-        """The liquor of the feed at the temperature of the bed, what it cannot hold taken out."""
-        entering = feed_of(feed, found)
-        over = crystals_at(
-            entering.solute,
-            entering.solvent,
-            saturation(self._soluble(feed, found), self.temperature, entering.solvent),
-            found.solute_fraction,
-        )
-        over = jnp.maximum(over, 0.0)
-        liquid = feed.liquid.at[found.solute].add(-found.solute_fraction * over)
-        liquid = liquid.at[found.solvent].add(-(1.0 - found.solute_fraction) * over)
-        return feed.replace(liquid=liquid, temperature=jnp.asarray(self.temperature, dtype=float))
-
     def inside(self, feed: Stream) -> tuple[Bed, Roles, Upflow]:
         """The steady bed, which species plays which part, and the liquor that rises."""
         found, T = roles(feed.mixture, self.solid, self.solvent), self.temperature
-        liquor = self._saturated(feed, found)
+        liquor = saturated_at(feed, found, self._soluble(feed, found), T)
         upflow = Upflow(self.superficial_velocity, liquor.liquid_density, liquor.liquid_viscosity)
         bed = steady_bed(
             feed_of(feed, found),

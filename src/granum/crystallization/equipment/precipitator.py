@@ -31,6 +31,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.batch import BatchOutlets
+from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.msmpr import STEADY
 from granum.crystallization.equipment.roles import SMALLEST, Roles, with_crystals
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
@@ -126,7 +127,7 @@ def exchange_of(mixture: Mixture, solid: int) -> tuple[Exchange, dict[int, Any]]
     return ways[0], ions
 
 
-class Precipitating(Stirred, Unit):
+class Precipitating(Colliding, Stirred, Unit):
     """What the precipitators share; each says by which equilibrium its solid is dissolved."""
 
     temperature: Temperature
@@ -208,8 +209,10 @@ class Precipitating(Stirred, Unit):
             ReactedVolume(per_mole / M, mixture.densities("liquids", T)[0], others),
             mixture.edges,
             nucleus_size=self.nucleus_size,
+            collisions=self.collisions,
         )
-        unsolved(state.converged, type(self).card, reason=UNSOLVED)
+        reason = UNSOLVED if self.collisions is None else UNSOLVED_CROWD
+        unsolved(state.converged, type(self).card, reason=reason)
         return Reacted(state, met, way, solid, reacting, mixed, crystal)
 
     def outlets(self, inside: Reacted, feed: Stream, reagent: Stream) -> BatchOutlets:

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from granum.core.errors import CaseError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
-from granum.crystallization.vessels.crystals import Crystal
+from granum.crystallization.vessels.crystals import Crystal, crystals_at, saturation
 from granum.crystallization.vessels.msmpr import Feed
 from granum.materials.double_salts import DOUBLE_SALTS
 from granum.streams.equilibrium import HumidMixture
@@ -133,6 +133,15 @@ def feed_of(stream: Stream, found: Roles) -> Feed:
         stream.liquid[found.solvent],
         jnp.sum(solid, axis=tuple(range(1, solid.ndim))),
     )
+
+
+def saturated_at(feed: Stream, found: Roles, soluble: Any, temperature: Any) -> Stream:
+    """The liquor of the feed at a temperature, what it cannot hold there taken out."""
+    entering, x = feed_of(feed, found), found.solute_fraction
+    ratio = saturation(soluble, temperature, entering.solvent)
+    over = jnp.maximum(crystals_at(entering.solute, entering.solvent, ratio, x), 0.0)
+    liquid = feed.liquid.at[found.solute].add(-x * over).at[found.solvent].add(-(1.0 - x) * over)
+    return feed.replace(liquid=liquid, temperature=jnp.asarray(temperature, dtype=float))
 
 
 def with_crystals(stream: Stream, found: Roles, crystals: Any) -> Any:

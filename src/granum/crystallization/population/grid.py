@@ -9,7 +9,7 @@ new classes at the nucleus size.
 from __future__ import annotations
 
 from math import comb
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -147,17 +147,72 @@ def births_by_pairs(numbers: Any, kernel: Any, x: Any, low: Any, high: Any) -> A
     """Births by class (1/s) by agglomeration (kernel per volume already), number and volume of the newborn
     kept; ``x`` mean cubes.
     """
-    n = x.shape[0]
-    j, k = jnp.triu_indices(n)
+    j, k = jnp.triu_indices(x.shape[0])
     rate = kernel[j, k] * numbers[j] * numbers[k] * jnp.where(j == k, 0.5, 1.0)
     volume = x[j] + x[k]
     # What would outgrow the grid stays in its last class with its volume.
     beyond = volume > x[-1]
     rate_kept, volume = jnp.where(beyond, rate * volume / x[-1], rate), jnp.minimum(volume, x[-1])
-    cell = jnp.clip(jnp.searchsorted(low**3, volume, side="right") - 1, 0, n - 1)
-    born = jax.ops.segment_sum(rate_kept, cell, n)
-    held = jax.ops.segment_sum(rate_kept * volume, cell, n)
+    born, held = sorted_into(rate_kept, volume, low)
     return _shared_out(born, safe_divide(held, born, x), x, high > low)
+
+
+def sorted_into(numbers: Any, cubes: Any, low: Any) -> tuple[Any, Any]:
+    """Numbers, and their cubes in all, by the class whose lower end is the next below; the last is open."""
+    n = low.shape[0]
+    cell = jnp.clip(jnp.searchsorted(low**3, cubes, side="right") - 1, 0, n - 1)
+    return jax.ops.segment_sum(numbers, cell, n), jax.ops.segment_sum(numbers * cubes, cell, n)
+
+
+class Events(NamedTuple):
+    """Newborn per second at the lower end of each class: by agglomeration, and by breakage for the number and
+    for the cubes of each class (columns); and how often a crystal of a class disappears, 1/s.
+    """
+
+    joined: Any
+    broken: tuple[Any, Any] | None
+    lost: Any
+
+
+def events(collisions: Collisions, numbers: Any, cubes: Any, low: Any, high: Any, volume: Any) -> Events:
+    """What becomes of the crystals in classes from nothing to open.
+
+    The crystals of a class stand at its two ends, as many at each as number and volume want, and so do the
+    newborn at those of theirs. Number gives way to volume beyond the lower end of the last class.
+    """
+    n, p = low.shape[0], low**3
+    q = jnp.append(p[1:], 27.0 * p[-1])
+    size = jnp.append(jnp.append(0.5 * low[1], jnp.sqrt(low[1:-1] * low[2:])), 1.5 * low[-1])
+    near, far = safe_divide(numbers * q - cubes, q - p, numbers), safe_divide(cubes - numbers * p, q - p, 0.0)
+    joined, broken, lost = jnp.zeros(n), None, jnp.zeros(n)
+    if collisions.agglomeration is not None:
+        kernel = collisions.agglomeration(size[:, None], size[None, :]) / volume
+        j, k = jnp.triu_indices(n)
+        rate = kernel[j, k] * jnp.where(j == k, 0.5, 1.0)
+        pairs = [
+            (a[j] * b[k], x[j] + y[k]) for a, x in ((near, p), (far, q)) for b, y in ((near, p), (far, q))
+        ]
+        met, made = (jnp.concatenate(parts) for parts in zip(*pairs, strict=True))
+        met = jnp.tile(rate, 4) * met * jnp.maximum(made / p[-1], 1.0)
+        made = jnp.minimum(made, p[-1])
+        cell = jnp.clip(jnp.searchsorted(p, made, side="right") - 1, 0, n - 2)
+        up = safe_divide(made - p[cell], p[cell + 1] - p[cell], 0.0)
+        joined = jax.ops.segment_sum(met * (1.0 - up), cell, n)
+        joined = joined + jax.ops.segment_sum(met * up, cell + 1, n)
+        lost = kernel @ numbers
+    if collisions.breakage is not None:
+        rate = collisions.breakage(size)
+
+        def fragments_of(parent: Any) -> Any:
+            count, share = collisions.breakage.daughters(p, high**3, jnp.maximum(parent, SMALLEST**3))
+            held = share * parent
+            up = safe_divide(held - count * p, q - p, 0.0).at[-1].set(0.0)
+            return (count - up).at[-1].set(held[-1] / p[-1]).at[1:].add(up[:-1])
+
+        first, second = (jax.vmap(fragments_of, out_axes=1)(end) for end in (p, q))
+        by_cube = safe_divide(rate, q - p, 0.0) * (second - first)
+        broken, lost = (rate * first - by_cube * p, by_cube), lost + rate
+    return Events(joined, broken, lost)
 
 
 def _shared_out(born: Any, mean: Any, x: Any, live: Any) -> Any:

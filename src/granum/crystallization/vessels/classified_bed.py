@@ -6,53 +6,19 @@ once they are too large to be carried off, grow downwards and leave at the botto
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 
+from granum.crystallization.formulas.upflow import Upflow
 from granum.crystallization.vessels.crystals import Crystal, crystals_at
 from granum.crystallization.vessels.msmpr import Feed, saturated_liquor
 from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide
-from granum.particles.formulas.hindered import settling_exponent_rowe
-from granum.particles.formulas.terminal import terminal_velocity
 
-FINEST, COARSEST = 1e-6, 0.05  # m, between which the sizes of a bed are sought
 ORDER = 32
-
-
-class Upflow(eqx.Module):
-    """Liquor that rises through crystals: velocity over the whole section (m/s), density and viscosity."""
-
-    velocity: Any
-    density: Any
-    viscosity: Any
-
-    def falls(self, size: Any, crystal: Crystal) -> tuple[Any, Any]:
-        """Terminal velocity of a crystal, as of the sphere of its volume, and its exponent of hindrance."""
-        d = size * (6.0 * crystal.volume_shape_factor / math.pi) ** (1.0 / 3.0)
-        v = terminal_velocity.function(d, crystal.density, self.density, self.viscosity)
-        v = jnp.maximum(v, 1e-30)  # crystals that rise never settle
-        return v, settling_exponent_rowe.function(self.density * v * d / self.viscosity)
-
-    def void_fraction(self, size: Any, crystal: Crystal) -> Any:
-        """Void fraction at which crystals of a size float."""
-        v, n = self.falls(size, crystal)
-        return (self.velocity / v) ** (1.0 / n)
-
-    def size_at(self, void_fraction: Any, crystal: Crystal) -> Any:
-        """Size that floats at a void fraction, and whether there is one."""
-
-        def misses(logarithm: Any) -> Any:
-            v, n = self.falls(jnp.exp(logarithm), crystal)
-            return jnp.log(v) + n * jnp.log(void_fraction) - jnp.log(self.velocity)
-
-        root = find_root(misses, math.log(FINEST), math.log(COARSEST))
-        return jnp.exp(root.value), root.converged
 
 
 class Bed(NamedTuple):

@@ -17,6 +17,16 @@ import jax.numpy as jnp
 from jax import lax
 
 from granum.crystallization.population.compiled import compiled
+from granum.crystallization.population.grid import Collisions
+from granum.crystallization.population.standing import (
+    Classes,
+    Outflow,
+    Standing,
+    classes_for,
+    count_of,
+    round_of,
+)
+from granum.crystallization.vessels.crowded import State, steady_crowd
 from granum.crystallization.vessels.crystals import Crystal, crystals_at, ratio_left
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide
@@ -102,6 +112,12 @@ class Removal(eqx.Module):
             + self.product_ratio * jnp.maximum(size - self.product_cut, 0.0)
         )
 
+    @property
+    def outflow(self) -> Outflow:
+        """How fast each size leaves."""
+        ratios = self.fines_ratio, 1.0, self.product_ratio
+        return Outflow((self.fines_cut, self.product_cut), ratios, (1.0, 1.0, self.product_ratio))
+
     def beyond(self, level: Any, start: Any, length: Any, held: bool = False) -> Any:
         """Cube of the crystals of one start size that leave as product above a level; what the vessel holds
         of them with ``held``.
@@ -139,6 +155,7 @@ def steady_msmpr(
     evaporation_per_crystal: Any = 0.0,
     nucleus_size: Any = 0.0,
     removal: Removal | None = None,
+    collisions: Collisions | None = None,
 ) -> SteadyState:
     """Steady state of one vessel.
 
@@ -155,6 +172,7 @@ def steady_msmpr(
         heat of crystallization over that of vaporization in an adiabatic vessel, which keeps every balance
         linear.
     removal: fines dissolved and product classified; None where every size leaves with the liquor.
+    collisions: by which crystals agglomerate or break; None where they only grow, which is then exact.
 
     Of several steady states the one with most crystals is taken; the one without any is taken when it is the
     only one. Crystals that enter with an undersaturated liquor dissolve until it is saturated or they are
@@ -180,7 +198,9 @@ def steady_msmpr(
         soluble = at(left)
         G = growth(c, soluble, temperature)
         held = 1.0
-        if removal is not None:  # the vessel holds another concentration than the product
+        if (
+            removal is not None and collisions is None
+        ):  # the vessel holds another concentration than the product
             length = jnp.maximum(G * volume / flow, 1e-15)
             held = removal.beyond(0.0, nucleus_size, length, held=True) / removal.beyond(
                 0.0, nucleus_size, length
@@ -210,23 +230,90 @@ def steady_msmpr(
             + _dot(start_numbers, cubes(start_sizes, length[..., None]))
         )
 
-    found = steady_composition(grown, lambda c: state(c)[0], saturated, highest)
-    some = found.crystallizes
     dissolved_down = jnp.clip(crystals_at(all_solute, all_solvent, saturated, x, bound), 0.0, total)
     rest = jnp.where(highest > saturated, total, dissolved_down)
-    c = jnp.where(some, found.ratio, ratio_left(all_solute, all_solvent, rest, x, bound))
+    alone = ratio_left(all_solute, all_solvent, rest, x, bound)
+    if collisions is not None:
+        outflow = None if removal is None else removal.outflow
+
+        def held_over(grid: Classes, cubes: Any) -> Any:
+            """Crystals in the vessel over those of a product that leaves with the liquor."""
+            return safe_divide(jnp.sum(cubes), jnp.sum(grid.shares * cubes), 1.0)
+
+        def next_to(c: Any, born: Any, before: State) -> Standing:
+            product, flow, G, _nuclei, _magma = state(c)
+            grid = classes_for(G * volume / flow, flow / volume, 2.0 * edges[-1], outflow)
+            magma = held_over(grid, before[1]) * product / flow
+            B = nucleation(c, at(all_solvent - bound * product), temperature, magma)
+            return round_of(
+                collisions,
+                grid,
+                before,
+                jnp.append(start_numbers, born * B * volume),
+                jnp.append(start_sizes, nucleus_size),
+                G,
+                volume,
+            )
+
+        def cubes_wanted(c: Any) -> Any:
+            """Cubes that a product of the right mass holds in the vessel where it leaves with the liquor."""
+            product, flow, *_rest = state(c)
+            return product / (crystal.mass_per_cube * flow) * volume
+
+        def excess(c: Any, before: State) -> Any:
+            _product, flow, G, *_rest = state(c)
+            grid = classes_for(G * volume / flow, flow / volume, 2.0 * edges[-1], outflow)
+            made = jnp.sum(grid.shares * before[1])
+            return jnp.log(jnp.maximum(made, 1e-300)) - jnp.log(jnp.maximum(cubes_wanted(c), 1e-300))
+
+        def typical(c: Any) -> State:
+            _product, flow, _growth, B, _magma = state(c)
+            number = (jnp.sum(start_numbers) + B * volume) * volume / flow
+            cubes = jnp.maximum(grown(c) / crystal.mass_per_cube * volume / flow, cubes_wanted(c))
+            return jnp.where(number > 0.0, number, 1.0), jnp.where(cubes > 0.0, cubes, 1.0)
+
+        over = jnp.where(highest > saturated, highest - saturated, 1.0)
+
+        def at_share(share: Any) -> Any:
+            return saturated + share * over
+
+        def following(share: Any, born: Any, before: State) -> State:
+            made = next_to(at_share(share), born, before)
+            return made.numbers, made.cubes
+
+        crowd = steady_crowd(
+            following,
+            lambda share, before: excess(at_share(share), before),
+            lambda share: typical(at_share(share)),
+            count_of(outflow),
+            highest > saturated,
+            (alone - saturated) / over,
+        )
+        some, converged = crowd.crystallizes, crowd.converged
+        c = jnp.where(some, at_share(crowd.share), alone)
+        population = next_to(c, jnp.where(some, 1.0, 0.0), crowd.state)
+    else:
+        found = steady_composition(grown, lambda c: state(c)[0], saturated, highest)
+        some, converged = found.crystallizes, found.converged
+        c = jnp.where(some, found.ratio, alone)
     product, flow, G, B, magma = state(c)
     product = jnp.where(some, product, rest)
     length = G * volume / flow
-    born = jnp.where(some, B * volume, 0.0)
-    classes = _classes(
-        jnp.append(start_numbers, born),
-        jnp.append(start_sizes, nucleus_size),
-        length,
-        edges,
-        crystal,
-        removal,
-    )
+    if collisions is not None:
+        magma = held_over(population.classes, population.cubes) * magma
+        B = nucleation(c, at(all_solvent - bound * product), temperature, magma)
+        tail = population.beyond(jnp.concatenate([jnp.zeros(1), edges[1:-1]]))
+        classes = tail - jnp.append(tail[1:], 0.0)
+    else:
+        born = jnp.where(some, B * volume, 0.0)
+        classes = _classes(
+            jnp.append(start_numbers, born),
+            jnp.append(start_sizes, nucleus_size),
+            length,
+            edges,
+            crystal,
+            removal,
+        )
     # The closure fixes the total; the classes share it, so that mass is conserved to rounding.
     made = jnp.sum(classes)
     classes = classes * jnp.where(made > 0, product / jnp.where(made > 0, made, 1.0), 0.0)
@@ -247,7 +334,7 @@ def steady_msmpr(
         jnp.where(some, magma, product / flow),
         length,
         ~some & (highest > saturated) & (total == 0),
-        found.converged,
+        converged,
     )
 
 
