@@ -307,6 +307,20 @@ def _long_work(app: FastAPI, workspace: Path | None) -> None:
             await crew().run("inside", {"case": case} | _folder(workspace, place), _structure(case), request)
         )
 
+    @app.post("/api/case/size")
+    async def resize(
+        request: Request,
+        case: Case,
+        unit: Case,
+        wanted: Annotated[str, Body(embed=True)] = "",
+        place: Place = "",
+    ) -> Response:
+        """The size of a piece of equipment of a case for what enters it: so that the figure of its duty is
+        ``wanted``, or as in its example.
+        """
+        payload = {"case": case, "unit": unit, "wanted": wanted} | _folder(workspace, place)
+        return _json(await crew().run("resize", payload, _structure(case), request))
+
     @app.post("/api/report", response_class=HTMLResponse)
     async def report(request: Request, case: Case, place: Place = "") -> HTMLResponse:
         """The report of a case file."""
