@@ -171,3 +171,12 @@ def test_equipment_of_a_line_is_sized_for_what_enters_it_and_undo_takes_it_back(
     page.check()
     page.one("[data-sized] button").click()
     page.until(lambda: case_of(page)["units"][unit]["area"] == before)
+
+
+def test_to_dry_and_enter_puts_in_the_most_usual_dryer(page: Page) -> None:
+    w = begun(page, "fr")
+    page.button("Ajouter un appareil").click()
+    pick(page, "sécher", w["search"])
+    page.until(lambda: len(case_of(page)["units"]) > 1)
+    models = {unit["model"] for unit in case_of(page)["units"].values()}
+    assert "drying.rotary_dryer" in models

@@ -42,12 +42,12 @@ ELEMENTS = 500
 CALL = 50.0
 """Steps that a call of something compiled costs."""
 THOROUGH = 2
-"""Optimization asked of the compiler for a loop of arrays, whatever is asked for the rest: one of thirty cells
-with thirty size classes is ready half as late again and runs four times as fast.
+"""Optimization asked of the compiler for a loop of arrays, whatever is asked for the rest: one of thirty
+cells with thirty size classes is ready half as late again and runs four times as fast.
 """
 WIDE = 100
-"""Elements of the largest array that a loop carries along from which on that is so; one of few numbers runs as
-fast however it is compiled.
+"""Elements of the largest array that a loop carries along from which on that is so; one of few numbers runs
+as fast however it is compiled.
 """
 
 _taken = threading.local()
