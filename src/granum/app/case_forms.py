@@ -333,10 +333,9 @@ def by_volume(name: str, units: list[dict[str, str]]) -> dict[str, Any]:
     if name not in ("mass_flow", "liquid_flow", "gas_flow"):
         return {}
     names = [*KINDS["VolumeFlow"].units, *(["Nm3/h"] if name == "gas_flow" else [])]
-    return {
-        "or_kind": "VolumeFlow",
-        "units": [*units, *({"unit": u, "label": pretty_unit(u)} for u in names)],
-    }
+    by_mass = [unit | {"sort": _("by mass")} for unit in units]
+    volumes = [{"unit": u, "label": pretty_unit(u), "sort": _("by volume")} for u in names]
+    return {"or_kind": "VolumeFlow", "units": [*by_mass, *volumes]}
 
 
 def case_value(value: Any) -> str:
