@@ -329,10 +329,29 @@ def test_a_worker_at_rest_gives_back_what_it_does_not_need(monkeypatch: pytest.M
 
     monkeypatch.setattr(worker, "REST", 0.01)
     monkeypatch.setattr(worker, "give_back", give_back)
-    assert worker._next(waiting, lambda: given.append("warm")) == "the next"
+    assert worker._next(waiting, iter(()), lambda: given.append("warm")) == "the next"
     waiting.put("at once")
-    assert worker._next(waiting, lambda: given.append("again")) == "at once"
+    assert worker._next(waiting, iter(()), lambda: given.append("again")) == "at once"
     assert given == ["warm", "memory"]
+
+
+def test_a_task_does_not_wait_until_a_new_worker_has_read_everything() -> None:
+    waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    read: list[int] = []
+
+    def steps() -> Iterator[None]:
+        for step in range(9):
+            read.append(step)
+            if step == 2:
+                waiting.put("a task")
+            yield
+
+    preparing = steps()
+    assert worker._next(waiting, preparing, None) == "a task"
+    assert read == [0, 1, 2]
+    waiting.put("another")
+    assert worker._next(waiting, preparing, None) == "another"
+    assert read == [0, 1, 2]
 
 
 def test_compiled_code_is_forgotten_when_there_is_much_of_it(monkeypatch: pytest.MonkeyPatch) -> None:

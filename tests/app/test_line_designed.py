@@ -147,3 +147,36 @@ def test_no_column_of_the_streams_is_out_of_sight_and_what_is_empty_is_folded(
     page.until(lambda: len(page.all("[data-streams] table")) == 1)
     assert page.browser.execute_script(heads) == columns, "a wide window has them in one table"
     page.check()
+
+
+def test_equipment_of_a_line_is_sized_for_what_enters_it_and_undo_takes_it_back(page: Page) -> None:
+    w = WORDS["fr"]
+    page.open("lines", "fr")
+    page.button(w["new"]).click()
+    page.type("#new-title", "Boue")
+    page.one("input[value=suspension]").click()
+    page.button(w["create"]).click()
+    pick(page, "clarificateur", w["search"])
+    solved(page)
+    (unit,) = case_of(page)["units"]
+    before = case_of(page)["units"][unit]["area"]
+    page.type("[data-size] input", "90 %")
+    page.button("Dimensionner pour ce qui entre").click()
+    page.says("[data-sized]", "pour que")
+    solved(page)
+    after = case_of(page)["units"][unit]["area"]
+    assert after != before
+    assert after.split()[1:] == before.split()[1:], "in the unit of the case"
+    page.says(f"[data-figure='{unit}.removal_efficiency']", "90")
+    page.check()
+    page.one("[data-sized] button").click()
+    page.until(lambda: case_of(page)["units"][unit]["area"] == before)
+
+
+def test_to_dry_and_enter_puts_in_the_most_usual_dryer(page: Page) -> None:
+    w = begun(page, "fr")
+    page.button("Ajouter un appareil").click()
+    pick(page, "sécher", w["search"])
+    page.until(lambda: len(case_of(page)["units"]) > 1)
+    models = {unit["model"] for unit in case_of(page)["units"].values()}
+    assert "drying.rotary_dryer" in models

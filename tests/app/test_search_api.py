@@ -6,16 +6,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from importlib.resources import files
 from typing import Any
 
 import httpx
 import pytest
+import tomli
 
 from granum.app.finding import found
 from granum.app.reading import as_html
 from granum.app.shipped import examples, pages
-from granum.core.i18n import language
+from granum.core.i18n import LANGUAGES, language
 from granum.core.index import entries
+from granum.core.search import search, usual
+from granum.core.words import tokens
 
 
 @pytest.fixture(scope="module")
@@ -191,3 +195,21 @@ def test_a_law_has_a_value_on_its_page(client: Any) -> None:
     found = client.post("/api/calc/drying.isotherm_wheat", json={"water_activity": "0.5"})
     assert found.status_code == 200, found.text
     assert 0.05 < found.json()["outputs"]["isotherm"]["value"] < 0.2
+
+
+def test_everyday_words_mean_the_most_usual_equipment_first() -> None:
+    for code, word, first in (
+        ("fr", "sécher", "drying.rotary_dryer"),
+        ("fr", "décanter", "settling.clarifier"),
+        ("en", "decanter", "centrifuges.scroll_decanter"),
+        ("en", "mills", "comminution.ball_mill"),
+        ("en", "filtrer", "filtration.rotary_vacuum_drum"),  # a word of the other language
+    ):
+        with language(code):
+            assert found(word)[0]["key"] == search(word)[0].key == first
+    assert usual("wood kiln") == ()
+    rows = tomli.loads((files("granum") / "core" / "usual.toml").read_text(encoding="utf-8"))["meant"]
+    assert {key for row in rows for key in row["cards"]} <= set(entries())
+    for code in LANGUAGES:
+        words = [tokens(word) for row in rows for word in row[code]]
+        assert len(words) == len(set(words)), "one meaning a word"

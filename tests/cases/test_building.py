@@ -17,7 +17,7 @@ from granum.cases import read_text
 from granum.cases.alone import tables
 from granum.cases.outline import identifier, outline
 from granum.cases.reading import quantity
-from granum.cases.scaling import POWERS, scale_of, scaled, size_told
+from granum.cases.scaling import POWERS, entering, scale_of, scaled, size_told
 from granum.cases.sections import sections
 from granum.core import registry
 from granum.core.errors import CaseError, GranumError, InputError
@@ -431,3 +431,27 @@ def test_what_is_put_on_a_stream_is_sized_for_it() -> None:
 @pytest.mark.parametrize("name", sorted(POWERS))
 def test_every_size_that_grows_is_one_of_some_equipment(name: str) -> None:
     assert any(name in {p.name for p in registry.find(key).card.parameters} for key in EQUIPMENT)
+
+
+def test_a_dryer_on_a_stream_has_gas_section_and_shape_of_its_example() -> None:
+    """Four times as much enters: four times the gas through four times the section, a drum twice as long and
+    at the same speed of its shell.
+    """
+    alone = tables("drying.rotary_dryer")
+    own = entering({"feeds": alone["feeds"]}, ["feed"], gas=True)
+    text = b.begin("Sand", "moist_solid", solid="sand")
+    text = b.add_unit(
+        text, "drying.rotary_dryer", origin="moist_solid", brings={"mass_flow": f"{4 * own} kg/s"}
+    )
+    made, small = tomllib.loads(text)["units"]["dryer"], alone["units"]["rotary_dryer"]
+    for name, kind, times in (
+        ("diameter", "Length", 2.0),
+        ("length", "Length", 2.0),
+        ("rotation_speed", "RotationSpeed", 0.5),
+    ):
+        sizes = [quantity(unit[name], kind, name, "") for unit in (made, small)]
+        assert sizes[0] == pytest.approx(times * sizes[1], rel=0.05), name
+    gas = 4 * quantity(alone["feeds"]["gas"]["gas_flow"], "MassFlow", "gas_flow", "")
+    feeds = tomllib.loads(text)["feeds"]
+    assert quantity(feeds["hot_gas"]["gas_flow"], "MassFlow", "gas_flow", "") == pytest.approx(gas, rel=0.05)
+    assert feeds["moist_solid"]["solid"] == {"quartz": "100 %"}, "sand is what the library calls quartz"

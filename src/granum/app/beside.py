@@ -86,7 +86,7 @@ def _machine_curve(key: str, asked: Mapping[str, Any], tell: Tell | None) -> dic
     if found is None:
         note = _("No chart: one calculation takes too long to be repeated here. A study runs many.")
         return choice | {"figure": None, "note": note}
-    units = _typed_unit(words.get(against), found.against), _known(asked.get("unit"), found.output)
+    units = typed_unit(words.get(against), found.against), _known(asked.get("unit"), found.output)
     return _told(found, units) | choice
 
 
@@ -119,7 +119,7 @@ def sheet(thing: Any, asked: Mapping[str, Any]) -> str:
 
 def _units(found: Curve, given: Mapping[str, Any], asked: Mapping[str, Any]) -> tuple[str, str]:
     """The units of a chart: as the input was typed, and as the result is shown."""
-    return _typed_unit(given.get(found.against.name), found.against), _known(asked.get("unit"), found.output)
+    return typed_unit(given.get(found.against.name), found.against), _known(asked.get("unit"), found.output)
 
 
 def solved_input(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
@@ -140,7 +140,7 @@ def solved_input(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
         given = split(thing.card, inputs_for(thing.card, {n: v for n, v in inputs.items() if n != name}))[0]
         p, value, _result = find_input(thing, name, **given, **wanted)
         against = ""
-    unit = _typed_unit(before, p) or p.display_unit(value)
+    unit = typed_unit(before, p) or p.display_unit(value)
     assert p.kind is not None  # what is found is a quantity
     number = typed(float(from_si(value, unit, p.kind)), 9)
     return {
@@ -156,7 +156,7 @@ def _mapping(inputs: Any) -> dict[str, Any]:
     return inputs
 
 
-def _typed_unit(text: Any, p: Parameter) -> str:
+def typed_unit(text: Any, p: Parameter) -> str:
     """The unit in which an input was typed; empty where it was not, or is no unit of it."""
     number = read_number(text) if isinstance(text, str) else None
     return _known(number[1] if number else "", p)

@@ -15,6 +15,7 @@ from granum.app.own_substances import form_row, own_substances
 from granum.cases.building import completed, share_of_feed
 from granum.cases.outline import Outline, outline, table_of
 from granum.cases.reading import knowing_own, parsed, read_text
+from granum.cases.sizing import duty
 from granum.cases.starting import listed
 from granum.core import registry
 from granum.core.documents import table_in
@@ -249,7 +250,18 @@ def _unit(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         "limits": form["limits_shown"],
         "values": {p.name: case_value(table[p.name]) for p in card.parameters if p.name in table},
         "figures": [_figure(p) for p in card.outputs if p.kind is not None and not p.series],
+        "duty": _duty(card),
     }
+
+
+def _duty(card: Any) -> dict[str, str] | None:
+    """The labels of the setting by which it is sized and of the figure that decides; None without a size."""
+    try:
+        own = duty(card.key)
+    except GranumError:
+        return None
+    figure = next(p for p in card.outputs if p.name == own.figure)
+    return {"setting": card.parameter(own.setting).label, "figure": figure.label}
 
 
 def _figure(p: Parameter) -> dict[str, Any]:
@@ -321,10 +333,9 @@ def by_volume(name: str, units: list[dict[str, str]]) -> dict[str, Any]:
     if name not in ("mass_flow", "liquid_flow", "gas_flow"):
         return {}
     names = [*KINDS["VolumeFlow"].units, *(["Nm3/h"] if name == "gas_flow" else [])]
-    return {
-        "or_kind": "VolumeFlow",
-        "units": [*units, *({"unit": u, "label": pretty_unit(u)} for u in names)],
-    }
+    by_mass = [unit | {"sort": _("by mass")} for unit in units]
+    volumes = [{"unit": u, "label": pretty_unit(u), "sort": _("by volume")} for u in names]
+    return {"or_kind": "VolumeFlow", "units": [*by_mass, *volumes]}
 
 
 def case_value(value: Any) -> str:

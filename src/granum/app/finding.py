@@ -14,10 +14,22 @@ from granum.app.wording import summary_words
 from granum.core.datasets import dataset
 from granum.core.i18n import LANGUAGES, _, current_language, language
 from granum.core.index import entries
-from granum.core.search import DOMAIN, GIVES, NAME, TEXT, TITLE, Document, Finder, card_documents, document
+from granum.core.search import (
+    DOMAIN,
+    GIVES,
+    NAME,
+    TEXT,
+    TITLE,
+    Document,
+    Finder,
+    card_documents,
+    document,
+    usual,
+)
 from granum.core.words import tokens
 
 SHOWN = 40  # hits
+USUAL = 3  # of the most usual equipment, before what a search finds for an everyday word
 BEHIND = 0.9  # what is not a card itself
 FOREIGN = 0.75  # a page in the other language
 LISTS = {  # tables shown by a card, with the column that names a row
@@ -131,5 +143,7 @@ def found(text: str, limit: int = SHOWN) -> list[dict[str, str]]:
     >>> found("vacuum drum")[0]["key"]
     'filtration.rotary_vacuum_drum'
     """
-    hits = _finder(current_language()).search(text[:200], limit)
-    return [{"key": hit.key} | _told(hit.kind, hit.key) for hit in hits]
+    first = [("card", key) for key in usual(text[:200])[:USUAL]]
+    hits = [(hit.kind, hit.key) for hit in _finder(current_language()).search(text[:200], limit)]
+    rows = [*first, *(hit for hit in hits if hit not in first)]
+    return [{"key": key} | _told(kind, key) for kind, key in rows[:limit]]

@@ -37,7 +37,7 @@ LOOK = 8  # jobs after which the memory of a process is looked at
 REST = 120.0  # seconds without a job after which a process that holds much memory is replaced
 GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
 # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
-LONG = 3.0
+LONG = 6.0
 STUDY = 3600.0  # seconds after which a study is given up
 PATIENCE = STUDY  # seconds without a question after which it is taken to be forgotten: a tab may be closed
 
@@ -336,6 +336,7 @@ class Crew:
                 return _outcome(*message)
             if left is None and not job.wanted:
                 left = now
+                self.warm()
                 process.send(None)
             if left is not None and now - left > GRACE:
                 process.stop()

@@ -38,7 +38,7 @@ from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.glossary import glossary, term
 from granum.core.i18n import _, current_language
 from granum.core.index import Entry, entries
-from granum.core.search import search
+from granum.core.search import search, usual
 from granum.core.units import unit_system
 
 Inputs = Annotated[dict[str, Any], Body()]
@@ -131,7 +131,9 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         if word:
             by_key = {c["card"]: c for c in listed}
             listed = [by_key[card.key] for card in await quick.run(lambda: search(word[:200]))]
-        return Answer({"cards": [c for c in listed if not sort or c["sort"] == sort]})
+        shown = [c for c in listed if not sort or c["sort"] == sort]
+        first = set(usual(word[:200]))
+        return Answer({"cards": shown, "usual": [c["card"] for c in shown if c["card"] in first]})
 
     @app.get("/api/search")
     async def everything(q: str = "", limit: int = SHOWN) -> Response:
@@ -306,6 +308,20 @@ def _long_work(app: FastAPI, workspace: Path | None) -> None:
         return _json(
             await crew().run("inside", {"case": case} | _folder(workspace, place), _structure(case), request)
         )
+
+    @app.post("/api/case/size")
+    async def resize(
+        request: Request,
+        case: Case,
+        unit: Case,
+        wanted: Annotated[str, Body(embed=True)] = "",
+        place: Place = "",
+    ) -> Response:
+        """The size of a piece of equipment of a case for what enters it: so that the figure of its duty is
+        ``wanted``, or as in its example.
+        """
+        payload = {"case": case, "unit": unit, "wanted": wanted} | _folder(workspace, place)
+        return _json(await crew().run("resize", payload, _structure(case), request))
 
     @app.post("/api/report", response_class=HTMLResponse)
     async def report(request: Request, case: Case, place: Place = "") -> HTMLResponse:

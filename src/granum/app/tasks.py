@@ -14,7 +14,7 @@ import numpy as np
 import tomli
 
 from granum.app import exercises, studies
-from granum.app.beside import described_curve, sheet, solved_input
+from granum.app.beside import described_curve, sheet, solved_input, typed_unit
 from granum.app.case_forms import read_line
 from granum.app.exercises import answers as worked_answers
 from granum.app.exercises.marking import marked
@@ -24,11 +24,12 @@ from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
 from granum.cases.alone import case_text
+from granum.cases.resizing import resized
 from granum.core import kept, registry
 from granum.core.cards import Card
 from granum.core.conversion import Binder
 from granum.core.documents import table_in
-from granum.core.errors import GranumError, InputError
+from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
 from granum.core.units import format_number, pretty_unit
 from granum.flowsheet.watching import Watch
@@ -374,6 +375,21 @@ def _inside(payload: dict[str, Any], tell: Tell) -> bytes:
     return packed({"charts": [{"heading": h, "figure": f.to_plotly_json()} for h, f in drawn.items()]})
 
 
+def resize(payload: dict[str, Any], tell: Tell) -> bytes:
+    """A piece of equipment of a case sized for what enters it: the setting with its new text, and the reason
+    in words.
+    """
+    outcome = _outcome(payload, tell)
+    name = payload["unit"]
+    if name not in outcome.sheet.units:
+        raise unknown_name(_("Unit"), name, outcome.sheet.units)
+    tell(0.4, _("seeking the size"))
+    found = resized(outcome, name, payload["wanted"])
+    table = tomli.loads(payload["case"])["units"][name]
+    unit = typed_unit(table.get(found.setting.name), found.setting)
+    return packed({"key": found.setting.name, "text": found.text(unit), "told": found.told()})
+
+
 def report(payload: dict[str, Any], tell: Tell) -> bytes:
     """The report of the text of a case file."""
     from granum.reports.html import line_report
@@ -456,6 +472,7 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
         table,
         run,
         inside,
+        resize,
         report,
         tables,
         study_choices,

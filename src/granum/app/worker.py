@@ -15,7 +15,7 @@ import queue
 import signal
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -24,6 +24,7 @@ from granum.app.wear import BURSTING, CROWDED, MORE_CROWDED, forget_when_worn, g
 from granum.core import kept
 from granum.core.garbage import collect_seldom
 
+DONE = object()
 REST = 1.0  # seconds without a task after which programs are written and free memory is given back
 
 
@@ -35,11 +36,16 @@ def _limit(megabytes: int) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (megabytes * 1_000_000, megabytes * 1_000_000))
 
 
-def _next(tasks: queue.SimpleQueue[Any], warm_up: Callable[[], object] | None) -> Any:
-    """The next task; while none is there, a process that has done its first warms up, since somebody uses
-    the page, what tracing made is written, and what compiling took and does not need any more, several
-    hundred megabytes at times, goes back to the system.
+def _next(
+    tasks: queue.SimpleQueue[Any], preparing: Iterator[None], warm_up: Callable[[], object] | None
+) -> Any:
+    """The next task; while none is there, what every task may need is read, a process that has done its first
+    warms up, since somebody uses the page, what tracing made is written, and what compiling took and does not
+    need any more, several hundred megabytes at times, goes back to the system.
     """
+    while tasks.empty():
+        if next(preparing, DONE) is DONE:
+            break
     try:
         return tasks.get(timeout=REST)
     except queue.Empty:
@@ -48,6 +54,19 @@ def _next(tasks: queue.SimpleQueue[Any], warm_up: Callable[[], object] | None) -
         kept.store()
         give_back()
         return tasks.get()
+
+
+def _prepared() -> Iterator[None]:
+    """Step by step: all that is declared, and the units. A first task does not wait for it: it takes what it
+    needs.
+    """
+    from granum.core import registry, unit_names
+
+    unit_names.registry()
+    yield
+    for domain in registry.DOMAINS:
+        registry.load(domain)
+        yield
 
 
 def _listen(source: BinaryIO, tasks: queue.SimpleQueue[Any], cancelled: threading.Event) -> None:
@@ -87,16 +106,14 @@ def main() -> None:
 
     from granum.app.tasks import TASKS
     from granum.app.telling import Cancelled, Tell
-    from granum.core import registry
     from granum.core.errors import ApplicabilityError, GranumError
     from granum.core.i18n import _, set_language
     from granum.core.units import set_unit_system
 
-    registry.everything()
     tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
-    warm_up, done = partial(TASKS["warm_up"], {}, Tell()), 0
+    warm_up, done, preparing = partial(TASKS["warm_up"], {}, Tell()), 0, _prepared()
     while True:
-        name, payload, code, units, new = _next(tasks, warm_up if done == 1 else None)
+        name, payload, code, units, new = _next(tasks, preparing, warm_up if done == 1 else None)
         done += 1
         forget_when_worn(CROWDED if new else BURSTING, MORE_CROWDED)
         cancelled.clear()

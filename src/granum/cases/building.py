@@ -19,7 +19,7 @@ import tomlkit
 from granum.cases.flows import BY_PHASE, BY_TOTAL, WATER, flow_of, in_phases, in_totals, percent
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
 from granum.cases.reading import knowing_own, own_materials, parsed, quantity
-from granum.cases.scaling import entering, scale_of, scaled
+from granum.cases.scaling import entering, gas_of, scale_of, scaled
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
 from granum.cases.starting import (
     GAS_PER_FEED,
@@ -41,6 +41,7 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.flowsheet.stream_figures import FIGURES, PHASES, told_of
 from granum.flowsheet.symbols import word_of
+from granum.materials.library import session
 from granum.streams.names import pretty
 
 __all__ = [
@@ -128,8 +129,16 @@ def begin(
     that the line describes itself.
     """
     with knowing_own(parsed(own, "case")):
-        text = _begun(title, enters, liquid, solute, solid, gas, own)
+        solute = (session().called(solute, "solute") or solute).partition(" in ")[0]
+        liquid, gas = _names("liquids", [liquid])[0], _names("gases", [gas])[0]
+        text = _begun(title, enters, liquid, solute, _names("solids", [solid])[0], gas, own)
         return add_feed(text, _(enters), values=first_feed(table_of(parsed(text, "case"), "mixture"), enters))
+
+
+def _names(phase: str, words: Sequence[str]) -> list[str]:
+    """What the library calls substances; what it does not know stays as it is, to be refused in words."""
+    sorts = {"liquids": ("fluid", "solute"), "solids": ("solid",), "gases": ("fluid",)}[phase]
+    return [(session().called(word, *sorts) or word).partition(" in ")[0] for word in words]
 
 
 def _begun(title: str, enters: str, liquid: str, solute: str, solid: str, gas: str, own: str) -> str:
@@ -173,7 +182,8 @@ def choose_substances(
 ) -> str:
     """Other substances. Shares of feeds that named one which is gone are given to the first of its phase."""
     raw = parsed(case, "case")
-    species = {"liquids": list(liquids), "solids": list(solids), "gases": list(gases)}
+    liquids, solids, gases = _names("liquids", liquids), _names("solids", solids), _names("gases", gases)
+    species = {"liquids": liquids, "solids": solids, "gases": gases}
     _require_mixture(
         species
         if not table_of(raw, "mixture").get("materials")
@@ -318,7 +328,7 @@ def add_unit(
     if values is None:
         for port in ports or ():
             if port == "gas" and "feed" in ports:
-                case = _with_gas(case, name, found, origin)
+                case = _with_gas(case, name, found, origin, brings)
         case = _with_vapor(case) if _asks_for_vapor(thing.card.key) else case
     return checked(case)
 
@@ -332,12 +342,17 @@ def _whole(raw: Mapping[str, Any]) -> float:
     return entering(raw, list(table_of(raw, "feeds")))
 
 
-def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
+def _with_gas(
+    case: str, unit: str, found: Outline, origin: str, brings: Mapping[str, Any] | None = None
+) -> str:
     """The case with a feed of hot gas to a dryer, of ambient gas to one that heats it itself; air and the
     vapor of the first liquid are added to substances that have none.
     """
     case = _with_vapor(case)
-    flow = GAS_PER_FEED * (_whole(found.raw) or 1000.0 / 3600.0)
+    if brings and "mass_flow" in brings:
+        flow = gas_of(table_of(table_of(outline(case).raw, "units"), unit)["model"], brings)
+    else:
+        flow = GAS_PER_FEED * (_whole(found.raw) or 1000.0 / 3600.0)
     moist = table_of(table_of(found.raw, "feeds"), origin)
     if moist:
         flow = max(flow, GAS_PER_MOISTURE * flow_of(moist, "liquid_flow", WATER))

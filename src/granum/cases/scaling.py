@@ -11,7 +11,7 @@ from granum.cases.alone import tables
 from granum.cases.flows import WATER, flow_of
 from granum.cases.outline import Outline, table_of
 from granum.cases.reading import quantity
-from granum.cases.starting import listed
+from granum.cases.starting import GAS_PER_MOISTURE, listed
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.errors import GranumError
@@ -28,9 +28,12 @@ POWERS = {
     "belt_width": 1.0,
     "diameter": 0.5,
     "holdup_mass": 1.0,
+    "flight_lip": 0.5,
+    "length": 0.5,
     "mass": 1.0,
     "parallel_number": 1.0,
     "plate_number": 1.0,
+    "rotation_speed": -0.5,
     "screen_area": 1.0,
     "shaft_power": 1.0,
     "throat_area": 1.0,
@@ -41,10 +44,18 @@ BY_DIAMETER = frozenset(
         "conveying.pneumatic_conveyor",
         "conveying.slurry_pipeline",
         "conveying.thick_slurry_pipeline",
+        "drying.flash_dryer",
+        "drying.rotary_dryer",
+        "drying.spray_dryer",
         "settling.circular_clarifier",
     )
 )
-"""What is sized by its diameter; in others it is a shape, or several run in parallel."""
+"""What is sized by its diameter, dryers for the gas through them; in others it is a shape, or several run in
+parallel.
+"""
+SHAPE = frozenset(("length", "flight_lip", "rotation_speed"))
+BY_SHAPE = frozenset(("drying.rotary_dryer",))
+"""What keeps its shape and the speed of its shell: as long, in diameters, as the example."""
 FAR = (0.5, 2.0)  # times within which a line as a whole is taken to be as large as the example
 OFF = (0.9, 1.1)  # and a stream that is known
 EVAPORATED = (0.9, 2.0)  # what is left must be left
@@ -81,6 +92,17 @@ def scale_of(model: str, found: Outline, origin: str = "", brings: Mapping[str, 
     return _scale(here, measured(example, [first], True), True)
 
 
+def gas_of(model: str, brings: Mapping[str, Any]) -> float:
+    """The gas of a dryer for what a stream ``brings``, kg/s: in proportion to its example, and more where
+    more is to be evaporated.
+    """
+    feeds = table_of(tables(model), "feeds")
+    here = quantity(brings["mass_flow"], "MassFlow", "mass_flow", "")
+    gas = flow_of(table_of(feeds, "gas"), "gas_flow", DENSITIES["gas_flow"])
+    flow = gas * _scale(here, entering({"feeds": feeds}, ["feed"], True), True).times
+    return max(flow, GAS_PER_MOISTURE * quantity(brings.get("solvent", "0 kg/s"), "MassFlow", "solvent", ""))
+
+
 def _scale(here: float, alone: float, known: bool) -> Scale:
     return Scale(here, here / alone if alone > 0.0 and here > 0.0 else 1.0, known)
 
@@ -97,7 +119,10 @@ def _sizes(model: str) -> list[Parameter]:
     return [
         p
         for p in registry.find(model).card.parameters
-        if p.kind is not None and p.name in POWERS and (p.name != "diameter" or model in BY_DIAMETER)
+        if p.kind is not None
+        and p.name in POWERS
+        and (p.name != "diameter" or model in BY_DIAMETER)
+        and (p.name not in SHAPE or model in BY_SHAPE)
     ]
 
 

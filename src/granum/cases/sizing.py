@@ -98,7 +98,7 @@ def sought(key: str, words: Mapping[str, Any], setting: str = "") -> Sought:
     name = key.split(".", 1)[1]
     wanted, given, p, figure = _asked(thing, words, setting)
     text = case_text(key, given)
-    low, high = _bracket(read_text(text, name=key), name, p, figure, wanted)
+    low, high = bracket(read_text(text, name=key), name, p, figure, wanted)
     path = f"{name}.{p.name}"
     specification = {
         "vary": path,
@@ -134,13 +134,21 @@ def doubts(run: Run) -> str:
     return " ".join([*_counted(run), *told, *dict.fromkeys(beyond)])
 
 
+def is_whole(key: str) -> bool:
+    """Whether what a piece of equipment is sized by is built in a whole number."""
+    return bool(_declared().get(key, {}).get("whole"))
+
+
 def _counted(run: Run) -> Iterator[str]:
     """What is built in a whole number and was found between two."""
     for path, value in run.found.items():
         name, _dot, setting = path.partition(".")
         card = run.units[name].model.card
-        row = _declared().get(card.key, {})
-        if row.get("whole") and row["setting"] == setting and abs(value - round(value)) > SAME * value:
+        if (
+            is_whole(card.key)
+            and duty(card.key).setting == setting
+            and abs(value - round(value)) > SAME * value
+        ):
             yield _("A whole number is built: {name} = {low} or {high}.").format(
                 name=card.parameter(setting).label, low=floor(value), high=ceil(value)
             )
@@ -178,7 +186,7 @@ def _asked(
     )
 
 
-def _bracket(line: Line, name: str, p: Parameter, figure: Parameter, wanted: float) -> tuple[float, float]:
+def bracket(line: Line, name: str, p: Parameter, figure: Parameter, wanted: float) -> tuple[float, float]:
     """Two neighboring settings between which the figure passes the value wanted."""
     start = getattr(line.sheet.units[name], p.name)
     if start is None:

@@ -16,6 +16,7 @@ from typing import Any
 import tomli
 
 from granum.core.glossary import Term, glossary, quantity_in, term
+from granum.core.i18n import LANGUAGES, current_language
 from granum.core.index import Entry, entries
 from granum.core.sources import authors_of
 from granum.core.words import root, tokens
@@ -257,8 +258,30 @@ def _cards() -> Finder:
     return Finder(card_documents())
 
 
+@cache
+def _usual() -> dict[str, dict[tuple[str, ...], tuple[str, ...]]]:
+    """What everyday words mean first, by language."""
+    text = (files("granum") / "core" / "usual.toml").read_text(encoding="utf-8")
+    rows = tomli.loads(text)["meant"]
+    return {
+        code: {tokens(word): tuple(row["cards"]) for row in rows for word in row[code]} for code in LANGUAGES
+    }
+
+
+def usual(text: str) -> tuple[str, ...]:
+    """The most usual cards of an everyday word, such as the name of a task; none for what is not that.
+
+    >>> usual("dryers")[0]
+    'drying.rotary_dryer'
+    """
+    own = current_language()
+    known = [_usual()[code] for code in sorted(LANGUAGES, key=lambda code: code != own)]
+    return next((words[tokens(text)] for words in known if tokens(text) in words), ())
+
+
 def search(text: str, limit: int | None = None) -> list[Entry]:
-    """The cards that a text means, the best first; all those of a domain before others where it is named.
+    """The cards that a text means, the best first: the usual ones of an everyday word, and all those of a
+    domain where it is named, before others.
 
     >>> search("terminal velcity", limit=1)[0].key
     'particles.terminal_velocity'
@@ -271,4 +294,5 @@ def search(text: str, limit: int | None = None) -> list[Entry]:
         place = {entry.key: number for number, entry in enumerate(found)}
         own.sort(key=lambda entry: place.get(entry.key, len(found)))
         found = own + [entry for entry in found if entry.domain != named]
-    return found[:limit]
+    first = [known[key] for key in usual(text)]
+    return [*first, *(entry for entry in found if entry not in first)][:limit]

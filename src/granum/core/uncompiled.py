@@ -42,8 +42,12 @@ ELEMENTS = 500
 CALL = 50.0
 """Steps that a call of something compiled costs."""
 THOROUGH = 2
-"""Optimization asked of the compiler for a loop, whatever is asked for the rest: one of thirty cells with
-thirty size classes is ready half as late again and runs four times as fast.
+"""Optimization asked of the compiler for a loop of arrays, whatever is asked for the rest: one of thirty
+cells with thirty size classes is ready half as late again and runs four times as fast.
+"""
+WIDE = 100
+"""Elements of the largest array that a loop carries along from which on that is so; one of few numbers runs
+as fast however it is compiled.
 """
 
 _taken = threading.local()
@@ -176,8 +180,10 @@ class _Maker:
 class _Loop:
     """A loop, and whether it is time to compile it."""
 
-    def __init__(self, op: Operation, maker: _Maker, size: float, work: float):
-        self._whole, self._options, self._kept = op.whole, _thorough(maker.options), maker.kept
+    def __init__(self, op: Operation, maker: _Maker, size: float, work: float, body: Trace):
+        self._whole, self._kept = op.whole, maker.kept
+        wide = max((shaped.size for shaped in body.made), default=0) >= WIDE
+        self._options = _thorough(maker.options) if wide else maker.options
         rent = LENT if self._kept and size <= MODERATE else RENT
         self.size, self.work = size, work
         self.written = next(maker.written, None)
@@ -261,7 +267,7 @@ def _while(op: Operation, maker: _Maker) -> Made:
     params = op.params
     with maker.repeated(PASSES):
         judge, body = maker.made(params["cond_jaxpr"]), maker.made(params["body_jaxpr"])
-    loop = _Loop(op, maker, judge.size + body.size, PASSES * (judge.work + body.work))
+    loop = _Loop(op, maker, judge.size + body.size, PASSES * (judge.work + body.work), params["body_jaxpr"])
     first, second = params["cond_nconsts"], params["cond_nconsts"] + params["body_nconsts"]
     several = bool(params["cond_jaxpr"].made[0].shape)
 
@@ -299,7 +305,7 @@ def _scan(op: Operation, maker: _Maker) -> Made:
     length, carried = params["length"], params["num_carry"]
     with maker.repeated(length):
         body = maker.made(params["jaxpr"])
-    loop = _Loop(op, maker, body.size, length * body.work)
+    loop = _Loop(op, maker, body.size, length * body.work, params["jaxpr"])
     first, second = params["num_consts"], params["num_consts"] + carried
     shapes, backward = params["jaxpr"].made[carried:], params["reverse"]
 

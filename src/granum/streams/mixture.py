@@ -183,15 +183,21 @@ class Mixture:
         table, ends = self._tables[phase][0], [s.valid for s in getattr(self, phase)]
         if table.shape[1] < 3:  # constant heat capacities
             return _horner(table, temperature)
-        T = jnp.asarray(temperature, dtype=float)
+        xp = array_of(temperature)
+        T = xp.asarray(temperature, dtype=float)
         low, high = (np.array(side).reshape((-1,) + (1,) * T.ndim) for side in zip(*ends, strict=True))
-        inside = jnp.clip(T, low, high)
+        inside = xp.clip(T, low, high)
         slopes = table[:, 1:] * np.arange(1, table.shape[1])
         return _horner(table, inside, by_row=True) + _horner(slopes, inside, by_row=True) * (T - inside)
 
     def densities(self, phase: str, temperature: Any) -> Any:
         """Densities of the (condensed) species of a phase, kg/m³."""
         return _horner(self._tables[phase][1], temperature)
+
+
+def array_of(value: Any) -> Any:
+    """What calculates with a value: NumPy with its own, which no compiler is asked for, else JAX."""
+    return np if isinstance(value, np.ndarray | np.generic | float) else jnp
 
 
 def _table(rows: list[tuple[float, ...]]) -> np.ndarray:
@@ -201,11 +207,12 @@ def _table(rows: list[tuple[float, ...]]) -> np.ndarray:
 
 def _horner(table: np.ndarray, temperature: Any, by_row: bool = False) -> Any:
     """One polynomial a row, at a temperature common to the rows or, ``by_row``, at one for each."""
-    theta = jnp.asarray(temperature, dtype=float) - ZERO_CELSIUS
+    xp = array_of(temperature)
+    theta = xp.asarray(temperature, dtype=float) - ZERO_CELSIUS
     inner = theta.ndim - by_row
     columns = [column.reshape((-1,) + (1,) * inner) for column in table.T]
     shape = theta.shape if by_row else (len(table), *theta.shape)
-    total = jnp.broadcast_to(columns[-1], shape) if columns else jnp.zeros(shape)
+    total = xp.broadcast_to(columns[-1], shape) if columns else xp.zeros(shape)
     for column in reversed(columns[:-1]):
         total = total * theta + column
     return total

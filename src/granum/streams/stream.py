@@ -16,7 +16,7 @@ from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.numerics import find_root
-from granum.streams.mixture import Mixture
+from granum.streams.mixture import Mixture, array_of
 
 COLDEST, HOTTEST = 150.0, 2500.0  # K, the bracket in which a mixing temperature is sought
 
@@ -45,17 +45,17 @@ class Stream(eqx.Module):
     @property
     def solid_flow(self) -> Any:
         """Total solid, kg/s."""
-        return jnp.sum(self.solid)
+        return array_of(self.solid).sum(self.solid)
 
     @property
     def liquid_flow(self) -> Any:
         """Total liquid, kg/s."""
-        return jnp.sum(self.liquid)
+        return array_of(self.liquid).sum(self.liquid)
 
     @property
     def gas_flow(self) -> Any:
         """Total gas, kg/s."""
-        return jnp.sum(self.gas)
+        return array_of(self.gas).sum(self.gas)
 
     @property
     def mass_flow(self) -> Any:
@@ -65,12 +65,12 @@ class Stream(eqx.Module):
     @property
     def solid_by_species(self) -> Any:
         """Solid summed over all particle axes, kg/s per species."""
-        return jnp.sum(self.solid, axis=tuple(range(1, self.solid.ndim)))
+        return array_of(self.solid).sum(self.solid, axis=tuple(range(1, self.solid.ndim)))
 
     @property
     def solid_by_size(self) -> Any:
         """Solid summed over species and further axes, kg/s per size class."""
-        return jnp.sum(self.solid, axis=(0, *range(2, self.solid.ndim)))
+        return array_of(self.solid).sum(self.solid, axis=(0, *range(2, self.solid.ndim)))
 
     @property
     def components(self) -> Any:
@@ -91,8 +91,8 @@ class Stream(eqx.Module):
         return {phase: flow for phase, flow in flows.items() if getattr(self.mixture, phase)}
 
     def _enthalpy(self, flows: dict[str, Any], temperature: Any) -> Any:
-        parts = [jnp.sum(flow * self.mixture.enthalpies(phase, temperature)) for phase, flow in flows.items()]
-        return sum(parts, jnp.zeros(()))
+        parts = [flow * self.mixture.enthalpies(phase, temperature) for phase, flow in flows.items()]
+        return sum((array_of(part).sum(part) for part in parts), np.float64(0.0))
 
     @property
     def enthalpy_flow(self) -> Any:
@@ -103,19 +103,19 @@ class Stream(eqx.Module):
     def liquid_fractions(self) -> Any:
         """Mass fractions of the liquid species (zero when there is no liquid)."""
         total = self.liquid_flow
-        return self.liquid / jnp.where(total > 0, total, 1.0)
+        return self.liquid / array_of(total).where(total > 0, total, 1.0)
 
     @property
     def gas_fractions(self) -> Any:
         """Mass fractions of the gas species (zero when there is no gas)."""
         total = self.gas_flow
-        return self.gas / jnp.where(total > 0, total, 1.0)
+        return self.gas / array_of(total).where(total > 0, total, 1.0)
 
     @property
     def size_fractions(self) -> Any:
         """Mass fractions of the size classes (zero when there is no solid)."""
         total = self.solid_flow
-        return self.solid_by_size / jnp.where(total > 0, total, 1.0)
+        return self.solid_by_size / array_of(total).where(total > 0, total, 1.0)
 
     @property
     def solid_volume_flow(self) -> Any:

@@ -10,13 +10,18 @@ const plain = (text) =>
     .toLowerCase();
 
 const MOST = 8; // pieces that only the search finds: by synonyms, and in spite of a typing error
-/** Equipment that words mean, the best first, as the search over everything has it. */
+/** Equipment that words mean, the best first, as the search over everything has it; the most usual for an everyday word. */
 function useRanked(word) {
-  const { data } = useAnswer(
+  const { data, error, pending } = useAnswer(
     (signal) => (word ? ask(`/api/cards?sort=equipment&word=${encodeURIComponent(word)}`, undefined, { signal }) : Promise.resolve(null)),
     [word],
   );
-  return (word && data?.cards.map((c) => c.card)) || [];
+  const known = Boolean(word && data);
+  return {
+    ranked: known ? data.cards.map((c) => c.card) : [],
+    usual: known ? data.usual : [],
+    waits: pending && !error,
+  };
 }
 
 export function Palette({ origin, pick, close }) {
@@ -30,32 +35,34 @@ export function Palette({ origin, pick, close }) {
     field.current?.focus();
   }, []);
   const words = plain(word).split(/\s+/).filter(Boolean);
-  const ranked = useRanked(word.trim());
+  const { ranked, usual, waits } = useRanked(word.trim());
   const has = (e) => {
     const text = plain(`${e.title} ${e.other_names} ${e.model.replaceAll('_', ' ')} ${e.summary}`);
     return words.every((w) => text.includes(w));
   };
   /** How many of the words do not stand in the title: "continu" is also in "discontinu". */
   const far = (e) => words.filter((w) => !` ${plain(e.title)}`.includes(` ${w}`)).length;
+  const first = (e) => (usual.includes(e.model) ? usual.indexOf(e.model) : usual.length);
   const place = (e) => (ranked.includes(e.model) ? ranked.indexOf(e.model) : ranked.length);
   // of what the search alone knows, what it ranks before the last piece that has the words, or the first few
   const named = (list || []).filter(has);
   const last = named.length ? Math.max(...named.map(place)) : MOST;
   const found = (list || [])
-    .filter((e) => has(e) || (place(e) < last && place(e) < ranked.length))
+    .filter((e) => has(e) || usual.includes(e.model) || (place(e) < last && place(e) < ranked.length))
     // what one stream is enough for comes before what needs another one first; of titles with all the words the
     // shortest is the most general
     .toSorted(
       (one, other) =>
+        first(one) - first(other) ||
         far(one) - far(other) ||
         one.joins - other.joins ||
         (far(one) ? 0 : one.title.length - other.title.length) ||
         place(one) - place(other),
     );
   useEffect(() => {
-    // pressed before the search has answered, Enter takes what it finds
-    if (entered && entered === word && found.length) pick(found[0].model);
-  }, [entered, word, found.length]);
+    // pressed before the search has answered, Enter waits for what it finds
+    if (entered && entered === word && found.length && !waits) pick(found[0].model);
+  }, [entered, word, found.length, waits]);
   const domains = Object.keys(english).filter((domain) => found.some((e) => e.domain === domain));
   const pieces = (some) =>
     html`<div class="shelf">${some.map(

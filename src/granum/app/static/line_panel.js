@@ -4,7 +4,7 @@ import { EndMenu, FeedForm, ItemForm, pretty } from './line_forms.js';
 import { UnitFigures } from './line_outcome.js';
 import { StreamPanel } from './line_streams.js';
 
-export function Panel({ chosen, choose, form, data, cases, old, typedIn, build }) {
+export function Panel({ chosen, choose, form, data, cases, old, typedIn, build, size }) {
   const { sort, name } = chosen;
   const panel = useRef(null);
   useEffect(() => {
@@ -34,10 +34,20 @@ export function Panel({ chosen, choose, form, data, cases, old, typedIn, build }
     }
     <button class="button" onClick=${() => choose({ sort: '', name: '' })}>${t('Close')}</button></div></div>
     ${unit && html`<${Ports} name=${name} unit=${unit} form=${form} build=${build} />`}
+    ${unit?.duty && html`<${Size} key=${'size ' + name} duty=${unit.duty} ready=${solved && !old} size=${(wanted) => size(name, wanted)} />`}
     <div class="columns">${unit && html`<div><${ItemForm} key=${name} table="units" name=${name} item=${unit} typedIn=${typedIn} spot="panel" /></div>`}
     ${feed && html`<div><${FeedForm} key=${name} name=${name} item=${feed} form=${form} typedIn=${typedIn} build=${build} spot="panel" /></div>`}
     ${solved && html`<div class=${old ? 'stale' : ''}><${UnitFigures} name=${name} unit=${solved} cases=${cases} /></div>`}
     ${stream && html`<div class=${old ? 'stale' : ''}><${StreamPanel} stream=${stream} /></div>`}</div></section>`;
+}
+
+/** The size for what enters here: the figure of the duty as typed, or as in the example. */
+function Size({ duty, ready, size }) {
+  const [wanted, setWanted] = useState('');
+  return html`<form class="row size" data-size onSubmit=${(e) => {
+    e.preventDefault();
+    if (ready) size(wanted);
+  }}><button class="button" disabled=${!ready} title=${ready ? '' : t('The line must be solved first.')}>${t('Size it for what enters')}</button><label class="small">${t('{setting}, so that {figure} is', duty)} <input type="text" autocomplete="off" spellcheck="false" placeholder=${t('as in its example')} value=${wanted} onInput=${(e) => setWanted(e.target.value)} /></label></form>`;
 }
 
 function Rename({ name, rename }) {

@@ -78,7 +78,7 @@ export function Lines({ state }) {
   const [writing, setWriting] = useState(false);
   const [setup, setSetup] = useState(!stacked.matches);
   const [removed, setRemoved] = useState(null);
-  const [sized, setSized] = useState(''); // for what the piece that was put in last was sized
+  const [sized, setSized] = useState({ name: '', text: '' }); // for what a piece was sized
   const stop = useRef(null);
   const latest = useRef('');
   const saved = useRef('');
@@ -236,7 +236,7 @@ export function Lines({ state }) {
       try {
         const found = await ask('/api/case/build', { case: latest.current, operation, arguments: given });
         if (operation === 'remove') setRemoved({ name: pretty(given.name), text: found.case });
-        setSized(found.told);
+        setSized({ name: '', text: found.told });
         await change(found.case);
         const now = await ask('/api/case/form', { case: found.case, across: across.current, place: where.current });
         const fresh = (table) => Object.keys(now[table]).find((name) => !(name in (before?.[table] || {})));
@@ -322,8 +322,20 @@ export function Lines({ state }) {
     const origin = palette.origin || '';
     setPalette(null);
     const made = await build('add_unit', { model, origin, ...brought(origin) });
-    if (made) choose({ sort: 'unit', name: made });
+    if (!made) return;
+    setSized((before) => ({ ...before, name: made }));
+    choose({ sort: 'unit', name: made });
   };
+  /** The size of a piece for what enters it: a change like any other, which Undo takes back. */
+  const size = (unit, wanted) =>
+    working(async (signal) => {
+      await complete();
+      const given = latest.current;
+      const found = await ask('/api/case/size', { case: given, unit, wanted, place: where.current }, { signal });
+      if (latest.current !== given) return;
+      await edit('units', unit, found.key, found.text);
+      setSized({ name: unit, text: found.told, undo: latest.current });
+    });
   const save = async (replace) => {
     try {
       await complete();
@@ -438,8 +450,8 @@ export function Lines({ state }) {
     <p class="small dim screen">${t('Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.')}</p>`
     }
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
-    ${sized && chosen.sort === 'unit' && html`<p class="small" role="status" data-sized>${sized}</p>`}
-    <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} />`}</div>
+    ${sized.text && sized.name === chosen.name && html`<p class="row small" role="status" data-sized><span>${sized.text}</span> ${sized.undo === text && html`<button class="button" onClick=${undo}>${t('Undo')}</button>`}</p>`}
+    <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} size=${size} />`}</div>
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
     ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} prices=${form?.prices} build=${build} /></div>`}</section></main>`;
 }

@@ -128,6 +128,9 @@ function kept(typed, menu) {
  * `onChange` gets the text, and whether it is only what the server understood of the text it had already: that comes late,
  * goes to whoever holds the value then, and to nobody once the field is gone. `onEnter` is called once what was typed is understood.
  */
+/** Units of one sort, under its name where a field takes several. */
+const grouped = (sort, options) => (sort ? html`<optgroup label=${sort}>${options}</optgroup>` : options);
+
 export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, label = p.label }) {
   const given = held(text, p);
   const [typed, show] = useState(null);
@@ -191,8 +194,8 @@ export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, l
     setTyped(null);
     if (number) send(joined({ number, unit: next }));
   };
-  const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: unitLabel(u) }));
-  if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu });
+  const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: unitLabel(u), sort: u.sort || '' }));
+  if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu, sort: '' });
   const plain = p.kind === 'ratio' && !units[0]?.unit && units.every((u) => ['', 'percent'].includes(u.unit));
   if (!plain || menu) offers.current = true; // a count or an exponent has no unit to choose, unless somebody wrote %
   const shown = printed(inLanguage(given.number));
@@ -211,6 +214,6 @@ export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, l
           tracked(settle().then(() => onEnter?.()));
         }
       }} />
-    ${offers.current && units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>
+    ${offers.current && units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${[...new Set(units.map((u) => u.sort))].map((sort) => grouped(sort, units.filter((u) => u.sort === sort).map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)))}</select>`}</div>
     ${wrong ? html`<div class="out small told" role="status">${wrong}</div>` : reading?.shown ? html`<div class="dim small" role="status" data-echo>= ${reading.shown}</div>` : ''}</div>`;
 }

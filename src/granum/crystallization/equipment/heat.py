@@ -28,7 +28,7 @@ class StreamHeat(Heat):
     def of(cls, feed: Stream, found: Roles) -> StreamHeat:
         """From the feed of a crystallizer."""
         liquids = feed.liquid.at[found.solute].set(0.0).at[found.solvent].set(0.0)
-        return cls(feed.mixture, found, liquids, feed.solid_by_species.at[found.solid].set(0.0))
+        return cls(feed.mixture, found, liquids, jnp.asarray(feed.solid_by_species).at[found.solid].set(0.0))
 
     def _enthalpy(self, T: Any, contents: Contents, crystals: Any) -> Any:
         liquid, solid = (self.mixture.enthalpies(phase, T) for phase in ("liquids", "solids"))
