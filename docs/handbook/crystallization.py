@@ -43,6 +43,9 @@ beside = c.solubility_beside_salt("25 degC", "200 g/kg")
 bittern = c.brine_saturation("25 degC", "20 g/kg", "470 g/kg")
 dried_up = c.invariant_point("25 degC", "potassium chloride", "magnesium chloride")
 glaserite = c.reciprocal_saturation("25 degC", 0.5, 0.5, "sodium sulfate", "potassium chloride")
+parted = {w: c.extractive_crystallization(0.5, 0.7, w, 0.4, 0.01, 0.2, 0.5) for w in (0.5, 0.7)}
+waxed_urea = c.agent_ratio_urea(16)
+waxed = c.adductive_crystallization(0.2, "25 degC", "100 degC", "60 kJ/mol", waxed_urea)
 
 # ---- barrier
 KNO3 = {"crystal_density": "2110 kg/m^3", "molar_mass": "101.1 g/mol"}

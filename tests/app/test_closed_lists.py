@@ -68,7 +68,7 @@ def test_salts_of_a_pair_sieves_and_what_a_wash_dissolves_come_from_lists() -> N
         f"{cation} {anion}"
         for cation in ("sodium", "potassium")
         for anion in ("chloride", "sulfate", "nitrate")
-    }
+    } | {"magnesium chloride", "magnesium sulfate", "calcium chloride"}
     for p in (q for q in pair if q["name"].endswith("_salt")):
         assert {o["value"] for o in p["options"]} == salts
     drum = alone_form("filtration.rotary_vacuum_drum", {})["parameters"]

@@ -369,6 +369,13 @@ from granum.crystallization.formulas.seeding import (
     seed_loading_critical as seed_loading_critical,
     seed_mass_for_product as seed_mass_for_product,
 )
+from granum.crystallization.formulas.selective import (
+    Adducted as Adducted,
+    Extracted as Extracted,
+    adductive_crystallization as adductive_crystallization,
+    agent_ratio_urea as agent_ratio_urea,
+    extractive_crystallization as extractive_crystallization,
+)
 from granum.crystallization.formulas.slugs import (
     SlugFlow as SlugFlow,
     slug_flow as slug_flow,

@@ -55,7 +55,7 @@ class _Solid(eqx.Module):
 @formula(
     source="richardson1954; rowe1987",
     title="Cut size of an upflow",
-    equation=r"U = v_t(L, \rho_c, \rho_l, \eta)\,\varepsilon^{n}",
+    equation=r"v_t(L, \rho_c, \rho_l, \eta)\,\varepsilon^{n} = U",
     output="cut_size",
     typical={
         "superficial_velocity": (1e-3, 0.05),
