@@ -97,8 +97,8 @@ def test_a_hundred_dilutions():
 
 
 def test_heats_of_solution_are_those_of_the_solubility():
-    """Calorimetry (25 °C) with heat capacities, against slopes of the solubility products of the tables, which
-    are good to some percent.
+    """Calorimetry (25 °C) with heat capacities, against slopes of the solubility products of the tables,
+    which are good to some percent.
     """
     for name, most in ((NACL, 450.0), (KCL, 1300.0)):
         alone = brine((name,))
