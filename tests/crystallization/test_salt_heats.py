@@ -163,6 +163,8 @@ def test_what_is_not_known_is_refused_in_words():
         heat_of_dilution(ROOM, 0.1, 0.05, 0.1, KCL, "sodium sulfate")
     with pytest.raises(ApplicabilityError, match="known from 0 °C to 100 °C"):
         heat_of_dilution("120 degC", 0.1, 0.05)
+    with pytest.raises(ApplicabilityError, match="from 10 °C to 100 °C, not at 2"):
+        heat_of_solution("2 degC", 0.1, first_salt="sodium sulfate")
     with pytest.raises(ApplicabilityError, match="sodium sulfate anhydrous at infinite dilution"):
         heat_of_solution("40 degC", 0.1, first_salt="sodium sulfate")
     with pytest.raises(InputError, match="in proportion"):

@@ -20,15 +20,16 @@ from granum.materials.formulas.activity import ROOM, WATER
 from granum.materials.library import session
 from granum.materials.solutes import SoluteSystem
 
-# Those whose law has the slope with temperature that calorimetry gives (silvester1978). The laws of calcium
-# chloride and potassium sulfate follow solubilities and lie far off; others are of 25 °C only.
-KNOWN = (
-    "sodium chloride",
-    "potassium chloride",
-    "magnesium chloride",
-    "sodium sulfate",
-    "magnesium sulfate",
-)
+# Those whose law has the slope with temperature that calorimetry gives (silvester1978), and from which
+# temperature (K): in the cold that of sodium sulfate bends, and would give its decahydrate 99 kJ/mol at 2 °C.
+# The laws of calcium chloride and potassium sulfate follow solubilities and lie far off; others are of 25 °C.
+KNOWN = {
+    "sodium chloride": 273.15,
+    "potassium chloride": 273.15,
+    "magnesium chloride": 273.15,
+    "sodium sulfate": 283.15,
+    "magnesium sulfate": 273.15,
+}
 # J per mol of salt at infinite dilution and 25 °C, differences of enthalpies of formation of wagman1982
 # (recalled): that of the library is often one in 200 to 400 mol of water at 18 °C
 INFINITE = {
@@ -85,15 +86,13 @@ def _brine(names: list[str], temperature: float) -> Brine:
     if found is None or odd:
         raise _refused(odd)
     low, high = found.limits
-    for law in (s.activity_law for s in found.salts):
+    for system in found.salts:
+        law = system.activity_law
         assert isinstance(law, ElectrolyteActivity)
-        low, high = max(low, law.coldest), min(high, law.hottest)
+        low, high = max(low, law.coldest, KNOWN[system.name]), min(high, law.hottest)
     if not low <= temperature <= high:
         raise ApplicabilityError(
-            _(
-                "The activities of this solution are known from {low} to {high}: its heats are not known at "
-                "{temperature}."
-            ).format(
+            _("The heats of this solution are known from {low} to {high}, not at {temperature}.").format(
                 **{
                     key: show(value, KINDS["Temperature"])
                     for key, value in (("low", low), ("high", high), ("temperature", temperature))
