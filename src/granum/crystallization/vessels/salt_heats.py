@@ -132,9 +132,9 @@ def heat_of_dilution(
 
     The enthalpy over that at infinite dilution is the slope of the excess Gibbs energy over RT with
     temperature. A second salt is diluted in the same proportion; molar values are per mole of both, masses of
-    both without water. Sodium, potassium and magnesium chloride, sodium and magnesium sulfate: with these the
-    slopes agree with calorimetry at 25 °C, within 210 J/mol for the first two, within an eighth for the
-    others; no measured heats of mixtures were compared.
+    both without water. Sodium, potassium and magnesium chloride, magnesium sulfate, from 10 °C on sodium
+    sulfate: with these the slopes agree with calorimetry at 25 °C, within 210 J/mol for the first two, within
+    an eighth for the others; no measured heats of mixtures were compared.
 
     The energy balances of units leave this heat out, as the enthalpy of a stream is a sum over its species.
     Saturated salt brine that is thinned takes up 34 kJ per kg of salt, 9 per kg of brine; with magnesium
