@@ -593,6 +593,12 @@ from granum.crystallization.vessels.reacting import (
     ReactedVolume as ReactedVolume,
     Reacting as Reacting,
 )
+from granum.crystallization.vessels.salt_heats import (
+    DilutionHeat as DilutionHeat,
+    SolutionHeat as SolutionHeat,
+    heat_of_dilution as heat_of_dilution,
+    heat_of_solution as heat_of_solution,
+)
 from granum.crystallization.vessels.zone_melting import (
     ZoneRefined as ZoneRefined,
     zone_refining as zone_refining,

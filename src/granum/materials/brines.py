@@ -17,13 +17,14 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
+from granum.core.constants import GAS_CONSTANT
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.materials.activities import SLACK, ElectrolyteActivity
 from granum.materials.correlation import Owner
 from granum.materials.double_salts import DOUBLE_SALTS, DoubleSalt, in_salts
 from granum.materials.formulas.activity import WATER, debye_huckel_slope, moller_function
-from granum.materials.formulas.mixed_electrolytes import Coefficients, log_activities
+from granum.materials.formulas.mixed_electrolytes import Coefficients, excess, log_activities
 from granum.materials.ions import Ions, ions_of
 from granum.materials.library import Library, session
 from granum.materials.solids import Solid
@@ -243,6 +244,16 @@ class Brine(eqx.Module):
         """Activity of water over the solution."""
         m = jnp.maximum(molalities, TRACE)
         return jnp.exp(log_activities(m, self.charges, self.coefficients(T))[1])
+
+    def excess_enthalpy(self, T: Any, molalities: Any) -> Any:
+        """Enthalpy of ions in a kilogram of water over that at infinite dilution, J: from the slope of their
+        excess Gibbs energy with temperature.
+        """
+        m, T = jnp.maximum(molalities, TRACE), jnp.asarray(T, dtype=float)
+        _value, slope = jax.jvp(
+            lambda t: excess(m, self.charges, self.coefficients(t)), (T,), (jnp.ones_like(T),)
+        )
+        return -GAS_CONSTANT * T**2 * slope
 
     def _products(self, given: Coefficients, molalities: Any) -> tuple[Any, Any]:
         """Logarithm of the activity product of each crystal, and of the activity of water."""
