@@ -306,7 +306,7 @@ class MultipleEffectEvaporator(_Effects):
     equation=r"\dot m_m\,(h_m - h_c) + \frac{\dot m_m}{\mathrm{Ra}}\,(h_v - h_c) = \dot Q_1",
 )
 class SteamJetEvaporator(_Effects):
-    """Thermal vapor recompression: effects as in ``evaporation.multiple_effect_evaporator``, of one of which
+    """Thermal vapor recompression: effects as in ``multiple_effect_evaporator``, of one of which
     a jet of motive steam sucks a part of the vapor and presses it into the first chest.
 
     It sucks from the first effect unless ``suction_effect`` names another, as much as El-Dessouky's fit to
