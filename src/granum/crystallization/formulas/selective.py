@@ -25,7 +25,7 @@ from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 
 Dissolved = Annotated[MassRatio, Within(1e-9, 20.0)]
-NEAR_ALL = 1.0 - 1e-9
+NEAR_ALL = 1.0 - 1e-12
 Substance = Annotated[MoleFraction, Within(1e-9, 1.0)]
 
 
