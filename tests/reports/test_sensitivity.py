@@ -42,6 +42,15 @@ def test_the_curve_is_the_law_and_the_point_is_the_result() -> None:
     assert chart(found).layout.xaxis.type == "log"
 
 
+def test_axes_have_the_symbols_of_the_fields() -> None:
+    thing = registry.find("crystallization.extractive_crystallization")
+    found = curve(thing, thing.evaluate(**docstring_values(thing.card)), "solute_per_solvent", "purity")
+    assert found is not None
+    drawn = chart(found).layout
+    assert "<i>C<sub>B</sub></i>" in drawn.xaxis.title.text
+    assert "<i>w<sub>P</sub></i>" in drawn.yaxis.title.text
+
+
 def test_beyond_the_hard_bounds_is_a_gap_and_no_zero() -> None:
     thing = registry.find("particles.sphericity_krumbein")
     found = curve(thing, thing.evaluate(**docstring_values(thing.card)))

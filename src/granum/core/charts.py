@@ -60,17 +60,18 @@ def template() -> go.layout.Template:
     )
 
 
-def axis_title(name: str, unit: str = "", label: str | None = None) -> str:
-    """``quantity symbol / unit``: label and symbol from the glossary, symbol in italics.
+def axis_title(name: str, unit: str = "", label: str | None = None, symbol: str = "") -> str:
+    """``quantity symbol / unit``: label and symbol from the glossary unless given, symbol in italics.
 
     >>> axis_title("particle_diameter", "um")
     'particle diameter <i>d<sub>p</sub></i> / µm'
     """
     term = glossary().get(name)
     text = label or (term.label if term else name)
-    symbol = f" <i>{html_symbol(term.symbol)}</i>" if term and term.symbol and label is None else ""
+    symbol = symbol or (term.symbol if term and label is None else "")
+    marked = f" <i>{html_symbol(symbol)}</i>" if symbol else ""
     shown = pretty_unit(unit)
-    return f"{text}{symbol}" + (f" / {shown}" if shown else "")
+    return f"{text}{marked}" + (f" / {shown}" if shown else "")
 
 
 def figure(

@@ -230,7 +230,9 @@ class CardData:
         def scaled(p: Parameter, values: Any) -> tuple[np.ndarray, str]:
             assert p.kind is not None
             unit = best_unit(float(np.median(np.abs(values))), p.kind)
-            return np.asarray(from_si(np.asarray(values), unit, p.kind)), axis_title(p.name, unit)
+            return np.asarray(from_si(np.asarray(values), unit, p.kind)), axis_title(
+                p.name, unit, symbol=p.own_symbol
+            )
 
         y, upward = scaled(self.output, self.measured)
         if len(self.columns) == 1:

@@ -232,7 +232,7 @@ def chart(found: Curve, units: tuple[str, str] = ("", "")) -> Any:
 
 def _axis(p: Parameter, unit: str) -> str:
     known = p.term is not None and p.term.name == p.name
-    return charts.axis_title(p.name, unit, None if known else p.label)
+    return charts.axis_title(p.name, unit, None if known else p.label, p.own_symbol)
 
 
 def _folded(title: str) -> str:
