@@ -203,7 +203,7 @@ def test_everyday_words_mean_the_most_usual_equipment_first() -> None:
         ("fr", "décanter", "settling.clarifier"),
         ("en", "decanter", "centrifuges.scroll_decanter"),
         ("en", "mills", "comminution.ball_mill"),
-        ("en", "filtrer", "filtration.rotary_vacuum_drum"),  # a word of the other language
+        ("en", "filtrer", "filtration.separator_choice"),  # a word of the other language
     ):
         with language(code):
             assert found(word)[0]["key"] == search(word)[0].key == first
