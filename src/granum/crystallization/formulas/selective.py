@@ -146,7 +146,7 @@ def adductive_crystallization(
 
     >>> found = adductive_crystallization(0.8, 363.15, 373.15, 6e4, 12.5)
     >>> round(float(found.mole_fraction_left), 3), round(float(found.yield_fraction), 3)
-    (0.587, 0.644)
+    (0.587, 0.645)
     """
     inverse = 1.0 / temperature - 1.0 / decomposition_temperature
     exponent = -heat_of_adduct / GAS_CONSTANT * inverse - agent_ratio * jnp.log(agent_activity)
