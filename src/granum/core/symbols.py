@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-_GREEK = {
+_CHARACTERS = {
     "alpha": "α",
     "beta": "β",
     "gamma": "γ",
@@ -35,6 +35,11 @@ _GREEK = {
     "Sigma": "Σ",
     "Phi": "Φ",
     "Lambda": "Λ",
+    "infty": "∞",
+    "partial": "∂",
+    "perp": "⊥",
+    "int": "∫",
+    "ln": "ln ",
 }
 
 
@@ -43,17 +48,19 @@ def html_symbol(latex: str) -> str:
     text = re.sub(r"\\(?:mathrm|text|mathit)\{([^{}]*)\}", r"\1", latex)
     text = re.sub(r"\\dot\s*\{?(\\?\w+)\}?", lambda m: m.group(1) + "\u0307", text)
     text = re.sub(r"\\(?:bar|overline)\s*\{?(\\?\w+)\}?", lambda m: m.group(1) + "\u0304", text)
-    text = re.sub(r"\\([A-Za-z]+)\s*", lambda m: _GREEK.get(m.group(1), m.group(1)), text)
-    text = re.sub(r"_\{([^{}]*)\}|_(\w)", lambda m: f"<sub>{m.group(1) or m.group(2)}</sub>", text)
-    text = re.sub(r"\^\{([^{}]*)\}|\^(\w|\*)", lambda m: f"<sup>{m.group(1) or m.group(2)}</sup>", text)
+    text = re.sub(r"\\tilde\s*\{?(\\?\w+)\}?", lambda m: m.group(1) + "\u0303", text)
+    text = re.sub(r"\\,\s*", " ", text)
+    text = re.sub(r"\\([A-Za-z]+)\s*", lambda m: _CHARACTERS.get(m.group(1), m.group(1)), text)
+    text = re.sub(r"_\{([^{}]*)\}|_([\w∞⊥])", lambda m: f"<sub>{m.group(1) or m.group(2)}</sub>", text)
+    text = re.sub(r"\^\{([^{}]*)\}|\^([\w*∞])", lambda m: f"<sup>{m.group(1) or m.group(2)}</sup>", text)
     return text.replace("{", "").replace("}", "").replace("\\", "")
 
 
 def text_symbol(latex: str) -> str:
     """The same symbol as plain text.
 
-    >>> text_symbol(r"\\rho_p"), text_symbol(r"\\mathrm{Re}")
-    ('ρ_p', 'Re')
+    >>> text_symbol(r"\\rho_p"), text_symbol(r"\\mathrm{Re}"), text_symbol(r"\\Delta H^\\infty")
+    ('ρ_p', 'Re', 'ΔH^∞')
     """
     html = html_symbol(latex)
     html = re.sub(r"<sub>(.*?)</sub>", r"_\1", html)
