@@ -9,7 +9,7 @@ import pytest
 
 import granum as gr
 from granum.cases.alone import alone
-from granum.core.errors import ApplicabilityError, InputError
+from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
 from granum.evaporation.equipment.multiple_effect import MultipleEffectEvaporator, SteamJetEvaporator
 from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
@@ -103,3 +103,10 @@ def test_what_a_jet_cannot_is_refused() -> None:
     jet = SteamJetEvaporator("60 m2", "50 kPa", "75 kPa", pressure_motive="15 bar", **WIDE)
     made = jet.operate(feed=cold)
     assert any("suck more vapor" in r.reason for r in made.records if np.any(r.mask))
+
+
+def test_motive_steam_must_be_above_what_the_jet_delivers() -> None:
+    with pytest.raises(ApplicabilityError, match="drives a jet only"):
+        gr.evaporation.motive_steam_ratio_el_dessouky("1 bar", "0.5 bar", "1.2 bar", "81 degC")
+    with pytest.raises(ConvergenceError, match="drives a jet only"):
+        alone("evaporation.steam_jet_evaporator", pressure_motive="1.1 bar", pressure_steam="1.2 bar").solve()

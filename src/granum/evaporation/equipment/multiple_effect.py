@@ -27,7 +27,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.evaporation.boiling import Effect, Liquor, boil, condensed, entrained
 from granum.evaporation.equipment.evaporator import Heating
-from granum.evaporation.formulas.steam_jet import motive_steam_ratio_el_dessouky
+from granum.evaporation.formulas.steam_jet import WEAK, motive_steam_ratio_el_dessouky
 from granum.evaporation.inside_charts import drawn_effects
 from granum.evaporation.kinds import EVAPORATION_SOURCE
 from granum.numerics import Newton, solve_system
@@ -331,6 +331,10 @@ class SteamJetEvaporator(_Effects):
                 ),
                 name="suction_effect",
             )
+
+    def inside(self, feed: Stream) -> Train:
+        unsolved(jnp.asarray(self.pressure_motive) > self.pressure_steam, type(self).card, reason=WEAK)
+        return super().inside(feed)
 
     def suction(self, liquor: Liquor, effects: list[Effect], vapors: list[Stream], chest: Any) -> Any:
         place = int(self.suction_effect) - 1

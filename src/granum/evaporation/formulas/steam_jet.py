@@ -9,6 +9,7 @@ from granum.core.kinds import Pressure, Ratio, Temperature
 
 KILO = 1e3  # Pa, in which the fit counts
 FREEZING = 273.15  # K
+WEAK = "Motive steam drives a jet only from a pressure above that which the jet delivers."
 NO_RISE = "A jet raises the pressure of the vapor: what it delivers must lie above what it sucks in."
 
 
@@ -52,6 +53,7 @@ def motive_steam_ratio_el_dessouky(
     T = temperature_suction - FREEZING
     watch(pressure_rise_ratio=ps / pe)
     impossible(ps <= pe, pressure_delivery, "pressure_delivery", pressure_suction, jnp.inf, NO_RISE)
+    impossible(pm <= ps, pressure_motive, "pressure_motive", pressure_delivery, jnp.inf, WEAK)
     pressure = 3e-7 * pm**2 - 0.0009 * pm + 1.6101
     temperature = 2e-8 * T**2 - 0.0006 * T + 1.0047
     return 0.296 * ps**1.19 / pe**1.04 * (pm / pe) ** 0.015 * pressure / temperature
