@@ -31,6 +31,7 @@ from granum.core.errors import InputError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
+    KINDS,
     Angle,
     Density,
     Distance,
@@ -44,6 +45,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.core.units import show
 from granum.numerics.smooth import safe_divide
 from granum.streams.cakes import solid_diameter
 from granum.streams.equipment.basics import Single
@@ -140,8 +142,8 @@ class Hopper(Unit):
         width, diameter = self.outlet_width, self.diameter
         if isinstance(width, int | float) and isinstance(diameter, int | float) and width >= diameter:
             raise InputError(
-                _("The outlet ({width} m) must be narrower than the hopper ({diameter} m).").format(
-                    width=f"{width:g}", diameter=f"{diameter:g}"
+                _("The outlet ({width}) must be narrower than the hopper ({diameter}).").format(
+                    width=show(width, KINDS["Length"]), diameter=show(diameter, KINDS["Length"])
                 ),
                 name="outlet_width",
             )
