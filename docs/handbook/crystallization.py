@@ -14,6 +14,7 @@ from granum.cases.alone import alone
 from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 from granum.crystallization.equipment.boiling import Boiling
 from granum.crystallization.formulas.solubility_laws import LibrarySolubility
+from granum.materials import saturated_heats, solute
 from granum.materials.library import session
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
@@ -46,6 +47,11 @@ bitter = c.heat_of_dilution("25 degC", "500 g/kg", "5 g/kg", first_salt="magnesi
 thinned_bitter = -float(bitter.heat_of_dilution)
 halite = c.heat_of_solution("25 degC", "359 g/kg")
 bischofite = c.heat_of_solution("25 degC", "500 g/kg", first_salt="magnesium chloride")
+nitrate = solute("potassium nitrate")
+nitrate_strong, nitrate_dilute = nitrate.heat_of_crystallization("25 degC"), nitrate.branches[0].heat_dilute
+magnesium = solute("magnesium chloride")
+from_slope, _strong = saturated_heats.enthalpy_of_dissolution(magnesium, magnesium.branches[0], 298.15)
+bischofite_slope = float(from_slope) / magnesium.molar_mass
 dried_up = c.invariant_point("25 degC", "potassium chloride", "magnesium chloride")
 glaserite = c.reciprocal_saturation("25 degC", 0.5, 0.5, "sodium sulfate", "potassium chloride")
 parted = {w: c.extractive_crystallization(0.5, 0.7, w, 0.4, 0.01, 0.2, 0.5) for w in (0.5, 0.7)}

@@ -110,12 +110,15 @@ def test_heats_of_solution_are_those_of_the_solubility():
 
 
 def test_what_dissolves_better_when_warm_gives_off_heat_as_it_crystallizes():
-    """Le Chatelier, also where energy balances have the heat at infinite dilution with the other sign."""
+    """Le Chatelier, also for the hexahydrate that heats much water; and the energy balances say the same."""
     for name in (NACL, KCL, MGCL2, "sodium sulfate"):
         law = session().solute(name)
         assert float(law.value(300.0) - law.value(290.0)) > 0.0
-        assert float(heat_of_solution(ROOM, 0.1, first_salt=name).heat_of_crystallization) > 0.0
-    assert float(heat_of_solution(ROOM, 0.1, first_salt=MGCL2).heat_of_crystallization_balance) < 0.0
+        found = heat_of_solution(ROOM, 0.1, first_salt=name)
+        assert float(found.heat_of_crystallization) > 0.0
+        assert float(found.heat_of_crystallization_balance) == pytest.approx(
+            float(found.heat_of_crystallization), rel=2e-3
+        )
 
 
 def test_salts_dissolve_in_any_order():

@@ -25,6 +25,8 @@ IONS = {
     "Br": -121.55,
     "I": -55.19,
     "NO3": -207.36,
+    "Li": -278.49,
+    "Cr2O7": -1490.3,
     "ClO3": -103.97,
     "ClO4": -129.33,
     "IO3": -221.3,
@@ -46,6 +48,9 @@ CRYSTALS = [
     ("sodium nitrate", -467.85, "Na NO3"),
     ("ammonium chloride", -314.43, "NH4 Cl"),
     ("ammonium nitrate", -365.56, "NH4 NO3"),
+    ("potassium sulfate", -1437.79, "K K SO4"),
+    ("potassium dichromate", -2061.5, "K K Cr2O7"),
+    ("lithium carbonate", -1215.9, "Li Li CO3"),
     ("silver nitrate", -124.39, "Ag NO3"),
     ("ammonium dihydrogen phosphate", -1445.07, "NH4 H2PO4"),
     ("potassium ferricyanide", -249.8, "K K K Fe(CN)6"),
@@ -108,7 +113,6 @@ WATEQ4F = {
     "gypsum": -0.46,
 }
 FORMATION = {
-    "potassium sulfate": (-1437.8, "K K SO4"),
     "potassium permanganate": (-837.2, "K MnO4"),
     "potassium chromate": (-1403.7, "K K CrO4"),
     "ammonium sulfate": (-1180.9, "NH4 NH4 SO4"),

@@ -29,6 +29,7 @@ from granum.materials.fluids import (
 )
 from granum.materials.formulas.activity import (
     debye_huckel_slope as debye_huckel_slope,
+    enthalpy_of_dissolution_williamson as enthalpy_of_dissolution_williamson,
     osmotic_coefficient_pitzer as osmotic_coefficient_pitzer,
     solvent_activity_raoult as solvent_activity_raoult,
     water_activity_osmotic as water_activity_osmotic,

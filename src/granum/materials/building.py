@@ -20,6 +20,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.unit_table import rows
 from granum.core.units import show
+from granum.materials import saturated_heats
 from granum.materials.activities import ElectrolyteActivity, IdealActivity, NoActivity, SucroseActivity
 from granum.materials.correlation import Correlation, Missing, Owner, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
@@ -251,14 +252,16 @@ def _branch(
             whole,
             entry.source,
         )
-    # released when it crystallizes
-    heat = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass
+    dilute = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass
+    stated = dilute if entry.heat_at_saturation is None else entry.heat_at_saturation / molar_mass
     branch = Branch(
         crystal=crystal,
         solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
         stable_from=entry.stable[0],
         stable_to=entry.stable[1],
-        heat_of_crystallization=heat,
+        heat_of_crystallization=stated,
+        heat_temperature=REFERENCE,
+        heat_dilute=dilute,
         heat_given=entry.heat_of_solution is not None,
         law=law,
         basis=entry.basis,
@@ -342,7 +345,24 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         solute_heat_capacity=nan,
         activity_law=_activity(key, entry, solvent),
     )
+    if saturated_heats.is_measured(system):
+        stated = [b.heat_at_saturation is not None for b in entry.branches]
+        branches = tuple(
+            b if known else _saturated(system, b) for b, known in zip(branches, stated, strict=True)
+        )
+        system = replace(system, branches=branches)
     return _with_enthalpies(system)
+
+
+def _saturated(system: SoluteSystem, branch: Branch) -> Branch:
+    """A branch with the heat of its saturated solution, where that is strong enough to differ."""
+    T = saturated_heats.place(branch)
+    with flags.collect():
+        found = once(partial(saturated_heats.enthalpy_of_dissolution, system, branch), T)
+    heat, strong = (float(value) for value in found)
+    if not branch.heat_given or strong < saturated_heats.STRONG:
+        return branch
+    return replace(branch, heat_of_crystallization=heat / system.molar_mass, heat_temperature=T)
 
 
 def _activity(key: str, entry: SoluteEntry, solvent: Fluid) -> Any:
@@ -399,7 +419,6 @@ def _apparent_heat(system: SoluteSystem) -> Any:
 
 def _formed(system: SoluteSystem, b: Branch) -> Any:
     """Enthalpy of formation of a crystal from what it dissolves to."""
-    dissolved = system.solute_enthalpy(REFERENCE) + b.solvent_ratio * system.solvent.liquid_enthalpy(
-        REFERENCE
-    )
-    return (dissolved - b.heat_of_crystallization) / b.hydrate_ratio - b.crystal.enthalpy(REFERENCE)
+    T = b.heat_temperature
+    dissolved = system.solute_enthalpy(T) + b.solvent_ratio * system.solvent.liquid_enthalpy(T)
+    return (dissolved - b.heat_of_crystallization) / b.hydrate_ratio - b.crystal.enthalpy(T)

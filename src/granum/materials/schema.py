@@ -140,6 +140,10 @@ class BranchEntry(_Strict):
     source: str
     heat_of_solution: float | None = None
     """J per mol of anhydrous solute dissolved at 25 °C, negative when heat is released on dissolving."""
+    heat_at_saturation: float | None = None
+    """J per mol of anhydrous solute dissolved in the saturated solution at 25 °C, where it is better known
+    than by the slope of the solubility.
+    """
     heat_source: str = ""
     table: list[tuple[float, float]] = []
     """Printed values: temperature in °C, rising, and percent by mass of anhydrous solute. The form ``table``

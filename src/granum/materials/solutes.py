@@ -32,7 +32,7 @@ from granum.materials.formulas.solutions import dynamic_viscosity_genotelle, dyn
 from granum.materials.solids import Solid
 from granum.numerics import find_root
 
-REFERENCE = 298.15  # K, at which heats of crystallization are given
+REFERENCE = 298.15  # K, at which heats of solution are given
 
 
 def _from_anhydrous_ratio(y: Any, _bound: float, _solute: float, _solvent: float) -> Any:
@@ -73,8 +73,10 @@ class Branch(eqx.Module):
     crystal: the solid that forms.
     solvent_ratio: kg of solvent bound in the crystal per kg of anhydrous solute; zero without solvate.
     stable_from, stable_to: temperatures between which it is the stable one, K.
-    heat_of_crystallization: J per kg of anhydrous solute at 25 °C, positive when heat is released; NaN when
-        not given.
+    heat_of_crystallization: from the saturated solution, J per kg of anhydrous solute at
+        ``heat_temperature``, positive when heat is released; NaN when not given.
+    heat_temperature: K.
+    heat_dilute: what the crystal takes up at infinite dilution, J per kg of anhydrous solute at 25 °C.
     misfit: root mean square of the relative deviations of the curve from its own data; zero where the source
         gives a formula alone.
     enthalpy_of_formation: of the crystal at 0 °C by its own heat capacity, J per kg of crystal, on the scale
@@ -86,6 +88,8 @@ class Branch(eqx.Module):
     stable_from: float = eqx.field(static=True)
     stable_to: float = eqx.field(static=True)
     heat_of_crystallization: float
+    heat_temperature: float
+    heat_dilute: float
     heat_given: bool = eqx.field(static=True)
     law: Correlation | Tabulated
     basis: str = eqx.field(static=True)
@@ -209,8 +213,8 @@ class SoluteSystem(eqx.Module):
         return self._select(as_temperature(temperature), lambda b, t: b.hydrate_ratio + 0.0 * t)
 
     def heat_of_crystallization(self, temperature: Any) -> Any:
-        """Heat released on crystallization at saturation, J per kg of anhydrous solute: the 25 °C value by
-        Kirchhoff's law.
+        """Heat released on crystallization at saturation, J per kg of anhydrous solute: that of one
+        temperature, and from there by Kirchhoff's law.
 
         Equals ``solute_enthalpy`` + bound solvent − ``crystal_enthalpy``, so that energy balances close.
         """
@@ -286,8 +290,8 @@ class SoluteSystem(eqx.Module):
     # -- enthalpies: zero for liquid solvent and dissolved solute at 0 °C; additive, so that mixing closes
     # exactly ----------
     def solute_enthalpy(self, temperature: Any) -> Any:
-        """Enthalpy of dissolved anhydrous solute, J/kg, with its apparent heat capacity; heats of dilution
-        are left out.
+        """Enthalpy of dissolved anhydrous solute, J/kg, with its apparent heat capacity. It is that in the
+        saturated solution at any strength: heats of dilution are left out.
         """
         return self.solute_heat_capacity * (as_temperature(temperature) - ZERO_CELSIUS)
 

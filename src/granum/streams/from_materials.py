@@ -227,11 +227,21 @@ def _double(known: Library, name: str, systems: Mapping[str, SoluteSystem]) -> S
 def _double_enthalpy(
     double: DoubleSalt, solid: Solid, masses: dict[str, float], systems: Mapping[str, SoluteSystem], T: Any
 ) -> Any:
-    """Of a mole of a double salt, less that by its heat capacity from 0 °C on."""
+    """Of a mole of a double salt, less that by its heat capacity from 0 °C on. Its heat of solution, one of
+    infinite dilution, is brought to saturation as those of the crystals of its salts are.
+    """
     solvent = next(iter(systems.values())).solvent
-    dissolved = sum(m * systems[n].solute_enthalpy(T) for n, m in masses.items() if n in systems)
+    parts = {n: m for n, m in masses.items() if n in systems}
+    dissolved = sum(m * systems[n].solute_enthalpy(T) for n, m in parts.items())
     water = masses[SOLVENT] * solvent.liquid_enthalpy(T)
-    return dissolved + water - double.heat_of_solution - sum(masses.values()) * solid.enthalpy(T)
+    heat = double.heat_of_solution + sum(m * _strong(systems[n], T) for n, m in parts.items())
+    return dissolved + water - heat - sum(masses.values()) * solid.enthalpy(T)
+
+
+def _strong(system: SoluteSystem, T: Any) -> Any:
+    """What the stable crystal of a salt takes up in its saturated solution over that in much water, J/kg."""
+    low = sum(b.stable_from <= T for b in system.branches[1:])
+    return system.heat_of_crystallization(T) - system.branches[low].heat_dilute
 
 
 def taken_up_name(liquid: str) -> str:

@@ -11,7 +11,9 @@ import jax.numpy as jnp
 from granum.core import formula
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import (
+    Kind,
     Molality,
+    MolarEnergy,
     MoleFraction,
     Number,
     PositiveNumber,
@@ -35,6 +37,10 @@ _Q, _A, _B = -17638.0, -1.0038, -0.24653
 ROOM = 298.15
 Charge = Annotated[PositiveNumber, Within(1.0, 4.0)]
 Count = Annotated[PositiveNumber, Within(1.0, 4.0)]
+SolubilitySlope = Annotated[
+    Any, Kind("relative change of a solubility with temperature", "1/K", display=("%/K", "1/K"))
+]
+Waters = Annotated[Number, Within(0.0, 24.0)]
 
 
 def moller_function(T: Any, a: Any) -> Any:
@@ -178,3 +184,42 @@ def solvent_activity_raoult(
     """
     x = solute_mole_fraction
     return (1.0 - x) / (1.0 - x + ion_count * x)
+
+
+@formula(
+    source="williamson1944; konig1985",
+    equation=(
+        r"\Delta H = R T^2\left(1 - n M_w m\right)\Lambda\,s_T,\quad "
+        r"\Lambda = \nu\frac{\mathrm d(m\phi)}{\mathrm dm},\quad "
+        r"s_T = \frac{1}{m}\frac{\mathrm dm}{\mathrm dT}"
+    ),
+    typical={"salt_molality": (0.5, 6.0)},
+    title="Heat of solution at saturation from the solubility (Williamson)",
+)
+def enthalpy_of_dissolution_williamson(
+    temperature: Temperature,
+    salt_molality: Molality,
+    solubility_relative_slope: SolubilitySlope,
+    osmotic_slope: Annotated[Number, Within(0.0, 60.0)] = 2.0,
+    bound_water: Waters = 0.0,
+) -> MolarEnergy:
+    """Heat that a mole of crystal takes up as it dissolves in its saturated solution: with its sign changed,
+    the heat of crystallization.
+
+    It is the change of the equilibrium with temperature, so that it needs no calorimeter: the slope of the
+    solubility along saturation, and how the osmotic coefficient changes with concentration at one
+    temperature. The latter is the number of particles of a molecule in an ideal solution, and this then van
+    't Hoff's equation. A crystal with n molecules of water brings them along. What dissolves better when warm
+    takes up heat as it dissolves. A slope of the solubility that is wrong by 0.1 % per kelvin makes some 2
+    kJ/mol.
+
+    Potassium chloride at 25 °C: Robinson and Stokes' osmotic coefficients (0.965, 0.980 and 0.989 at 4.0, 4.5
+    and 4.81 mol/kg) and solubilities of 34.2 g in 100 g of water at 20 °C and 37.2 at 30 °C give 14.0 kJ/mol;
+    calorimetry 13.8; at infinite dilution it is 17.2.
+
+    >>> found = enthalpy_of_dissolution_williamson("25 degC", 4.77, 0.00841, 2.256)
+    >>> round(found / 1e3, 1)
+    14.0
+    """
+    T, m = temperature, salt_molality
+    return GAS_CONSTANT * T**2 * (1.0 - bound_water * WATER * m) * osmotic_slope * solubility_relative_slope

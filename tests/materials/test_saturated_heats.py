@@ -1,0 +1,92 @@
+"""Heats of crystallization from the saturated solution, as energy balances take them."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from granum.materials import enthalpy_of_dissolution_williamson
+from granum.materials.library import session
+from granum.materials.saturated_heats import enthalpy_of_dissolution, is_measured
+from granum.materials.solutes import REFERENCE
+
+GAS = 8.314462618
+
+
+def strong():
+    """Crystals whose heat comes from the slope of their solubility, or stands beside it."""
+    library = session()
+    for name in library.names("solute"):
+        system = library.solute(name)
+        for branch in system.branches if is_measured(system) else ():
+            if branch.heat_of_crystallization != branch.heat_dilute:
+                yield system, branch
+
+
+@pytest.mark.parametrize(
+    ("name", "calorimetric"),
+    # J/mol: what dissolves last, from the calorimetric slopes of Pitzer's parameters (silvester1978)
+    [
+        ("sodium chloride", 1943.0),
+        ("potassium chloride", 13830.0),
+        ("sodium sulfate", 72170.0),
+        ("magnesium chloride", 17250.0),
+    ],
+)
+def test_solubilities_tell_what_calorimeters_measure(name, calorimetric):
+    """Two ways that share no number."""
+    system = session().solute(name)
+    heat, _strong = enthalpy_of_dissolution(system, system.branches[0], REFERENCE)
+    assert float(heat) == pytest.approx(calorimetric, rel=0.1, abs=500.0)
+
+
+def test_an_ideal_solution_has_van_t_hoffs_heat():
+    found = enthalpy_of_dissolution_williamson(300.0, 0.01, 0.02, 1.0)
+    assert float(found) == pytest.approx(GAS * 300.0**2 * 0.02)
+
+
+def test_a_crystal_that_is_the_solution_has_no_heat_by_its_slope():
+    """Where a hydrate melts in its own water the solubility rises without bound, and the factor is zero."""
+    molality = 1.0 / (6.0 * 0.01801528)
+    found = enthalpy_of_dissolution_williamson(303.0, molality, 0.5, 5.0, 6.0)
+    assert abs(float(found)) < 1e-6 * GAS * 303.0**2
+
+
+def test_le_chatelier():
+    """What dissolves better when warm gives off heat as it crystallizes, whatever it does in much water."""
+    seen = 0
+    for system, branch in strong():
+        T = branch.heat_temperature
+        rising = float(branch.inside(T + 1.0) - branch.inside(T - 1.0))
+        assert math.copysign(1.0, rising) == math.copysign(1.0, float(branch.heat_of_crystallization)), (
+            system.name,
+            branch.crystal.name,
+        )
+        seen += 1
+    assert seen > 40
+
+
+def test_epsom_salt_gives_off_what_its_enthalpy_chart_says():
+    """McCabe, Smith and Harriott, example on cooling a solution of 32.5 % from 120 to 70 °F: from the chart
+    45.4 Btu per pound of magma, 315,000 Btu per ton of crystals. With the heat of much water it is a tenth
+    less.
+    """
+    system = session().solute("magnesium sulfate")
+    branch = system.branch("magnesium sulfate heptahydrate")
+    warm, cold = 120.0 / 1.8 + 255.372, 70.0 / 1.8 + 255.372
+    ratio = float(system.solubility(cold))
+    liquor, crystal = ratio / (1.0 + ratio), 1.0 / float(branch.hydrate_ratio)
+    share = (0.325 - liquor) / (crystal - liquor)
+
+    def solution(x, T):
+        return x * float(system.solute_enthalpy(T)) + (1.0 - x) * float(system.solvent.liquid_enthalpy(T))
+
+    magma = (1.0 - share) * solution(liquor, cold) + share * float(
+        system.crystal_enthalpy(cold, "magnesium sulfate heptahydrate")
+    )
+    heat = solution(0.325, warm) - magma
+    assert heat == pytest.approx(45.4 * 2326.0, rel=0.07)
+    assert heat / share == pytest.approx(315e3 * 1055.06 / 907.185, rel=0.03)
+    in_much_water = heat - share * (branch.heat_of_crystallization - branch.heat_dilute) * crystal
+    assert in_much_water < 0.92 * 45.4 * 2326.0
