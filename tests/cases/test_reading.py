@@ -73,6 +73,12 @@ def test_wrong_cases_say_what_to_do(old: str, new: str, message: str) -> None:
         read_text(GOOD.replace(old, new))
 
 
+def test_keys_that_are_missing_or_unknown_are_told_at_once() -> None:
+    text = GOOD.replace('title = "Heater loop"', "").replace("liquid_flow", "liquid_flwo")
+    with pytest.raises(CaseError, match=r"'title' is missing\. .*liquid_flwo.*'liquid_flow'\?$"):
+        read_text(text)
+
+
 def test_unconverged_names_stream_and_unit_and_keeps_the_last_iterate() -> None:
     with pytest.raises(ConvergenceError, match=r"back.*split.*purge") as caught:
         read_text(GOOD.replace('"50 %"', "1.0")).solve()

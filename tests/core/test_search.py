@@ -10,6 +10,8 @@ import time
 
 import pytest
 
+from granum.core import registry
+from granum.core.errors import InputError
 from granum.core.search import Finder, document, search
 from granum.core.words import root, tokens
 
@@ -171,3 +173,18 @@ def test_where_nothing_has_all_words_what_has_most_is_given() -> None:
     )
     assert finder.search("drum filter xyzzy")[0].key == "one"
     assert {hit.key for hit in finder.search("filter")} == {"one", "two"}
+
+
+@pytest.mark.parametrize(
+    ("key", "first"),
+    [
+        ("porous.pressure_drop_ergun", "porous.pressure_gradient_ergun"),
+        ("ergun", "porous.pressure_gradient_ergun"),
+        ("cyclone.cut_size", "cyclones.cut_size_barth"),
+        ("particles.terminal_velocty", "particles.terminal_velocity"),
+        ("drying.séchoir_rotatif", "drying.rotary_dryer"),
+    ],
+)
+def test_a_card_that_does_not_exist_is_found_by_its_words(key, first):
+    with pytest.raises(InputError, match=f"Did you mean '{first}'"):
+        registry.find(key)

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import jax
 import numpy as np
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from granum.cases.fitted import fits_of, fitted_values
 from granum.cases.schema import OWN, Case, DynamicTable, FeedTable, MixtureTable, StreamTable
@@ -33,6 +34,7 @@ from granum.streams.stream import Stream
 
 Shape = TypeVar("Shape", bound=BaseModel)
 Part = TypeVar("Part")
+MOST_TOLD = 4  # problems of a file at once
 MOST_STEPS = 100_000  # of a run in time
 LARGEST_FILE = 2_000_000  # bytes; a case is a page of text
 
@@ -89,24 +91,28 @@ def validated(shape: type[Shape], raw: Mapping[str, Any], name: str) -> Shape:
 
 
 def _complaint(shape: type[Shape], name: str, problem: ValidationError) -> str:
-    first = problem.errors()[0]
-    place = ".".join(str(part) for part in first["loc"])
-    if first["type"] == "extra_forbidden":
-        owner = _fields_at(shape, first["loc"][:-1])
+    """What is wrong with a file: the first problem, and keys beside it that are missing or not known."""
+    first, *others = problem.errors()
+    further = [e for e in others if e["type"] in ("missing", "extra_forbidden")]
+    told = dict.fromkeys(_said(shape, e, name) for e in (first, *further))
+    return f"{name}: " + " ".join(list(told)[:MOST_TOLD])
+
+
+def _said(shape: type[Shape], error: ErrorDetails, name: str) -> str:
+    place = ".".join(str(part) for part in error["loc"])
+    if error["type"] == "extra_forbidden":
+        owner = _fields_at(shape, error["loc"][:-1])
         if owner:
-            return (
-                f"{name}: "
-                + unknown_name(
-                    _("Key"),
-                    str(first["loc"][-1]),
-                    owner,
-                    _("in [{place}]").format(place=".".join(map(str, first["loc"][:-1])) or name),
-                    meant="liquids" if first["loc"] == ("mixture", "solutes") else None,
-                ).message
-            )
-    if first["type"] == "missing":
-        return _("{name}: '{place}' is missing.").format(name=name, place=place)
-    return _("{name}: '{place}': {reason}.").format(name=name, place=place, reason=first["msg"])
+            return unknown_name(
+                _("Key"),
+                str(error["loc"][-1]),
+                owner,
+                _("in [{place}]").format(place=".".join(map(str, error["loc"][:-1])) or name),
+                meant="liquids" if error["loc"] == ("mixture", "solutes") else None,
+            ).message
+    if error["type"] == "missing":
+        return _("'{place}' is missing.").format(place=place)
+    return _("'{place}': {reason}.").format(place=place, reason=error["msg"])
 
 
 def _fields_at(shape: type[Shape], location: tuple[Any, ...]) -> list[str]:

@@ -99,13 +99,14 @@ def unknown_name(
     *,
     quantities: bool = True,
     meant: str | None = None,
+    further: Iterable[str] = (),
     strict: bool = False,
     otherwise: str = "",
 ) -> InputError:
     """The one error for a name that does not exist: it lists or suggests those that do. Names that are not
     ``quantities`` are told as they are, on a page too, though the glossary may have a word of the same name.
-    ``meant`` is the known one where that is certain; ``strict`` as for ``nearest``; ``otherwise`` says what
-    to do where none was meant.
+    ``meant`` is the known one where that is certain, ``further`` are others that it may be; ``strict`` as for
+    ``nearest``; ``otherwise`` says what to do where none was meant.
     """
     known = sorted(known)
     close = meant or nearest(name, known, strict=strict)
@@ -114,6 +115,8 @@ def unknown_name(
     message = _("{what} '{name}' is not known{place}.").format(what=what, name=name, place=place)
     if close:
         message += " " + _("Did you mean '{close}'?").format(close=close)
+        if others := ", ".join(further):
+            message += " " + _("Or {names}?").format(names=others)
     elif known:
         shown = ", ".join(known[:_MOST_NAMES])
         if len(known) > _MOST_NAMES:

@@ -17,6 +17,7 @@ from granum.core.cards import domain_of
 from granum.core.errors import InputError, nearest, unknown_name
 from granum.core.i18n import _
 from granum.core.index import Entry, entries
+from granum.core.search import search
 
 DOMAINS = (
     "materials",
@@ -38,6 +39,7 @@ DOMAINS = (
     "studies",
     "costs",
 )
+MOST_FOUND, MOST_TOLD = 40, 3
 _declared: dict[str, Any] = {}
 _keys: dict[int, str] = {}
 _families: dict[str, dict[str, Any]] = {}
@@ -104,8 +106,8 @@ def find(key: str) -> Any:
     found = known(key)
     if found is not None:
         return found
-    names = {*entries(), *_declared}
-    if nearest(key, names) is None:
+    close = _meant(key)
+    if not close:
         word = key.rpartition(".")[2] or key
         raise InputError(
             _("There is no card '{key}'. 'granum list {word}' shows those that speak of it.").format(
@@ -113,7 +115,24 @@ def find(key: str) -> Any:
             ),
             name=key,
         )
-    raise unknown_name(_("Card"), key, names)
+    raise unknown_name(_("Card"), key, {*entries(), *_declared}, meant=close[0], further=close[1:])
+
+
+def _meant(key: str) -> list[str]:
+    """Keys that an unknown one may mean, the likeliest first: one that differs by a slip, or else what the
+    search finds for its words, those of its domain before others.
+    """
+    domain, _dot, own = key.rpartition(".")
+    domain = nearest(domain, DOMAINS, strict=True) or "" if domain else ""
+    names = {*entries(), *_declared}
+    owns = {k.partition(".")[2]: k for k in sorted(names) if not domain or k.startswith(f"{domain}.")}
+    slip = nearest(own, owns, strict=True)
+    if slip:
+        return [owns[slip]]
+    found = [entry.key for entry in search(own.replace("_", " "), MOST_FOUND)]
+    found.sort(key=lambda k: not k.startswith(f"{domain}."))
+    likely = found or [k for k in [nearest(key, names)] if k]
+    return likely[:MOST_TOLD]
 
 
 def family(name: str) -> dict[str, Any]:

@@ -239,9 +239,11 @@ def _double_enthalpy(
 
 
 def _strong(system: SoluteSystem, T: Any) -> Any:
-    """What the stable crystal of a salt takes up in its saturated solution over that in much water, J/kg."""
-    low = sum(b.stable_from <= T for b in system.branches[1:])
-    return system.heat_of_crystallization(T) - system.branches[low].heat_dilute
+    """What the crystal of a salt that is stable in a room takes up in its saturated solution over that in
+    much water, J/kg.
+    """
+    stable = sum(b.stable_from <= ROOM for b in system.branches[1:])
+    return system.heat_of_crystallization(T) - system.branches[stable].heat_dilute
 
 
 def taken_up_name(liquid: str) -> str:
