@@ -56,6 +56,8 @@ def test_every_machine_closes_its_balances(feed) -> None:
         BallMill(AustinSelection(0.01, 0.9), breakage, 1600.0, shaft_power=1.5e5),
         BondMill(5e4, 5e4),
         ConeCrusher(5e-4, 2e-3, breakage, shaft_power=1e4),
+        ConeCrusher(5e-4, 2e-3, breakage, work_index=4.2e4),
+        BallMill(AustinSelection(0.01, 0.9), breakage, 1600.0, work_index=4.2e4),
     ):
         assert_closed(unit, feed)
 
@@ -94,6 +96,20 @@ def test_plug_flow_mill_is_a_batch_and_an_empty_mill_changes_nothing(feed) -> No
     np.testing.assert_allclose(BallMill(selection, breakage, 0.0)(feed).product.solid, feed.solid, atol=1e-14)
     dry = feed.replace(solid=jnp.zeros_like(feed.solid))
     assert np.all(np.isfinite(np.asarray(mill(dry).product.liquid)))
+
+
+def test_a_work_index_gives_the_power_and_nothing_else_gives_none(feed) -> None:
+    """Bond's law by hand between the sizes that the machine makes."""
+    breakage, rocks = AustinBreakage(0.5, 0.8, 4.0), (5e-4, 2e-3)
+    made = ConeCrusher(*rocks, breakage, work_index=4.2e4).operate(feed=feed)
+    coarse, fine = float(size_passing(feed)), float(size_passing(made.outlets.product))
+    energy = 4.2e4 * (np.sqrt(1e-4 / fine) - np.sqrt(1e-4 / coarse))
+    assert energy > 0.0
+    assert float(made.figures.specific_energy) == pytest.approx(energy)
+    assert float(made.outlets.shaft_power) == pytest.approx(energy * float(feed.solid_flow))
+    assert ConeCrusher(*rocks, breakage).operate(feed=feed).figures.specific_energy is None
+    idle = ConeCrusher(1.0, 2.0, breakage, work_index=4.2e4).operate(feed=feed)
+    assert float(idle.outlets.shaft_power) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_bond_mill_reaches_the_size_it_was_sized_for(feed) -> None:

@@ -147,6 +147,8 @@ def test_limits_have_a_source(key: str) -> None:
     thing = equipment()[key]
     assert list(thing.card.limits) == list(thing.limits.values())
     assert all(limit.name and limit.source and limit.unit for limit in thing.card.limits)
+    shares = [limit.high for limit in thing.card.limits if limit.unit == "percent"]
+    assert all(high > 1.0 for high in shares if not isinstance(high, str)), "shares, not percents"
 
 
 @pytest.mark.parametrize("key", ALONE)

@@ -56,6 +56,8 @@ class Species:
         return self.reference_enthalpy + total + slope * (temperature - inside)
 
 
+SORTS = {"solids": ("solid",), "liquids": ("fluid", "solute"), "gases": ("fluid",)}
+"""What the library calls that which stands in a phase."""
 AIR = "dry air"
 STEAM = 0.98  # mass share of the vapor from which on a gas counts as steam, which is its own carrier
 
@@ -155,13 +157,16 @@ class Mixture:
         return (len(self.solids), len(self.size_edges) - 1, *(len(edges) - 1 for _name, edges in self.axes))
 
     def index(self, phase: str, name: str) -> int:
-        """Position of a species in its phase (``solids``, ``liquids``, ``gases``); a clear error for an
-        unknown name.
+        """Position of a species in its phase (``solids``, ``liquids``, ``gases``), by its name there or by
+        another that the library knows it by; a clear error for an unknown name.
         """
         names = [species.name for species in getattr(self, phase)]
-        if name not in names:
+        if name in names:
+            return names.index(name)
+        called = [self.materials.called(n, *SORTS[phase]) for n in (name, *names)]
+        if called[0] is None or called[0] not in called[1:]:
             raise unknown_name(_("Species"), name, names, _("among the {phase}").format(phase=_(phase)))
-        return names.index(name)
+        return called.index(called[0], 1) - 1
 
     @cached_property
     def _tables(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 import jax.scipy.linalg as linalg
 
 from granum.comminution.equipment.screens import size_passing
-from granum.comminution.formulas.energy import product_size_bond
+from granum.comminution.formulas.energy import product_size_bond, specific_energy_bond
 from granum.comminution.kinds import WorkIndex
 from granum.comminution.population import Convention, TanksInSeries, batch_operator, fragments, rate_matrix
 from granum.core import equipment
@@ -59,6 +59,21 @@ def _warmed(ground: Stream, shaft_power: Any, card: Any) -> Ground:
     return Ground(product, jnp.asarray(shaft_power))
 
 
+def _power(shaft_power: Any, work_index: Any, feed: Stream, ground: Stream) -> Any:
+    """The stated power, else that of Bond's law between the sizes that 80 % pass, else none."""
+    if shaft_power is not None or work_index is None:
+        return 0.0 if shaft_power is None else shaft_power
+    coarse = size_passing(feed)
+    fine = jnp.minimum(size_passing(ground), coarse)  # to rounding, where nothing is broken
+    return feed.solid_flow * specific_energy_bond.function(coarse, fine, work_index)
+
+
+def _energy(unit: BallMill | ConeCrusher, power: Any, feed: Stream) -> Any:
+    """Per mass of solid; None where neither power nor work index is known."""
+    known = unit.shaft_power is not None or unit.work_index is not None
+    return safe_divide(power, feed.solid_flow) if known else None
+
+
 class MillFigures(NamedTuple):
     """Figures of a mill."""
 
@@ -66,7 +81,7 @@ class MillFigures(NamedTuple):
     feed_size: Length
     product_size: Length
     reduction_ratio: Ratio
-    specific_energy: SpecificEnergy
+    specific_energy: SpecificEnergy | None
 
 
 @equipment("ball_mill", source="austin1984; reid1965", title="Mill with a population balance")
@@ -75,8 +90,9 @@ class BallMill(Unit, Dynamic):
     of the shell.
 
     The mean residence time is the mass of solid in the mill over the feed of solid. The shaft power heats the
-    product; it does not set the breakage rates (see ``selection_rate_herbst_fuerstenau``). Batch grinding is
-    plug flow.
+    product; it does not set the breakage rates (see ``selection_rate_herbst_fuerstenau``). Where none is
+    given, a work index gives that of Bond's law for the sizes that 80 % of feed and product pass. Batch
+    grinding is plug flow.
 
     The laws are those of single sizes (``continuous``) unless the convention is ``root_two``, which most
     published constants of Austin's laws have: rates of root-two classes by their upper limit, fragments
@@ -87,8 +103,9 @@ class BallMill(Unit, Dynamic):
     breakage: Annotated[Any, Law("breakage_function")]
     holdup_mass: Mass
     mixing: Annotated[Any, Law("residence_time_law")] = TanksInSeries(1)
-    shaft_power: Annotated[Power, Within(0.0)] = 0.0
+    shaft_power: Annotated[Power, Within(0.0)] | None = None
     breakage_convention: Convention = "continuous"
+    work_index: WorkIndex | None = None
 
     utilities: ClassVar[Utilities] = DRIVE
 
@@ -101,11 +118,11 @@ class BallMill(Unit, Dynamic):
     def outlets(self, inside: None, feed: Stream) -> Ground:
         matrix = self._matrix(feed.mixture)
         ground = feed.regraded(self.mixing.operator(matrix, self._residence_time(feed)))
-        return _warmed(ground, self.shaft_power, type(self).card)
+        return _warmed(ground, _power(self.shaft_power, self.work_index, feed, ground), type(self).card)
 
     def figures(self, inside: None, outlets: Ground, feed: Stream) -> MillFigures:
         coarse, fine = size_passing(feed), size_passing(outlets.product)
-        energy = safe_divide(self.shaft_power, feed.solid_flow)
+        energy = _energy(self, outlets.shaft_power, feed)
         return MillFigures(self._residence_time(feed), coarse, fine, coarse / fine, energy)
 
     def drawn(self, inside: None, outlets: Ground, figures: MillFigures, feed: Stream) -> dict[str, Any]:
@@ -155,10 +172,9 @@ class BallMill(Unit, Dynamic):
         # state(t) = e^{still t} (state(0) - a) + a + b t solves  state' = still state + inlet
         state = jnp.exp(-rate * step) * on_sizes(ground, state - a) + a + b * step
         state = state * (self.holdup_mass / jnp.sum(state))
-        out = now.replace(solid=state * (now.solid_flow / self.holdup_mass)).at_enthalpy(
-            now.enthalpy_flow + self.shaft_power
-        )
-        return state, Ground(out, jnp.asarray(self.shaft_power))
+        out = now.replace(solid=state * (now.solid_flow / self.holdup_mass))
+        power = _power(self.shaft_power, self.work_index, now, out)
+        return state, Ground(out.at_enthalpy(now.enthalpy_flow + power), jnp.asarray(power))
 
 
 class CrusherFigures(NamedTuple):
@@ -167,7 +183,7 @@ class CrusherFigures(NamedTuple):
     feed_size: Length
     product_size: Length
     reduction_ratio: Ratio
-    specific_energy: SpecificEnergy
+    specific_energy: SpecificEnergy | None
 
 
 @equipment("bond_mill", source="bond1952; bond1961", title="Crusher or mill by Bond's law")
@@ -183,7 +199,7 @@ class BondMill(Unit):
     efficiency_factor: PositiveNumber = 1.0
 
     limits: ClassVar[Limits] = {
-        "finest": Limit("product in the finest size class", 0.0, 0.2, "percent", OWN_LIMIT)
+        "finest": Limit("product in the finest size class", 0.0, 20.0, "percent", OWN_LIMIT)
     }
 
     utilities: ClassVar[Utilities] = DRIVE
@@ -217,15 +233,13 @@ class BondMill(Unit):
         efficiency_factor: float = 1.0,
     ) -> BondMill:
         """The machine whose power brings a flow from one 80 % size to another."""
-        from granum.comminution.formulas.energy import specific_energy_bond
-
         energy = specific_energy_bond(feed_size, product_size, work_index)
         return cls(mass_flow * energy * efficiency_factor, work_index, efficiency_factor)
 
     def measured(
         self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {"finest": outlets.product.size_fractions[0]}
+        return {"finest": 100.0 * outlets.product.size_fractions[0]}
 
     def drawn(self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream) -> dict[str, Any]:
         return {"electric_power_drive": driven(outlets.shaft_power)}
@@ -237,15 +251,17 @@ class ConeCrusher(Unit):
     pass.
 
     The product is p = (I - C)(I - B C)^-1 f with the chances of breakage C and the fragments B; all mass is
-    kept. What a breakage function means is said by the convention, as for ``ball_mill``.
+    kept. What a breakage function means is said by the convention, as for ``ball_mill``, and so is the power
+    where none is given.
     """
 
     always_passing_size: Length
     always_broken_size: Length
     breakage: Annotated[Any, Law("breakage_function")]
     classification_exponent: PositiveNumber = 2.3
-    shaft_power: Annotated[Power, Within(0.0)] = 0.0
+    shaft_power: Annotated[Power, Within(0.0)] | None = None
     breakage_convention: Convention = "continuous"
+    work_index: WorkIndex | None = None
 
     utilities: ClassVar[Utilities] = DRIVE
 
@@ -267,13 +283,12 @@ class ConeCrusher(Unit):
         c = chance.over(edges[:-1], edges[1:]).at[0].set(0.0)
         b = fragments(feed.mixture.edges, self.breakage, self.breakage_convention)
         operator = jnp.linalg.solve((jnp.eye(c.shape[0]) - b * c[None, :]).T, jnp.diag(1.0 - c)).T
-        return _warmed(feed.regraded(operator), self.shaft_power, type(self).card)
+        ground = feed.regraded(operator)
+        return _warmed(ground, _power(self.shaft_power, self.work_index, feed, ground), type(self).card)
 
     def figures(self, inside: None, outlets: Ground, feed: Stream) -> CrusherFigures:
         coarse, fine = size_passing(feed), size_passing(outlets.product)
-        return CrusherFigures(
-            coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow)
-        )
+        return CrusherFigures(coarse, fine, coarse / fine, _energy(self, outlets.shaft_power, feed))
 
     def drawn(self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream) -> dict[str, Any]:
         return {"electric_power_drive": driven(outlets.shaft_power)}

@@ -77,7 +77,9 @@ class VibratingScreen(Unit):
     liquid_split_oversize: Fraction = 0.0
 
     limits: ClassVar[Limits] = {
-        "load": Limit("undersize fed over the capacity of the screen", 0.0, 1.0, "percent", "karra1979"),
+        "load": Limit(
+            "undersize fed over the capacity of the screen", 0.0, 1.0, "dimensionless", "karra1979"
+        ),
     }
 
     utilities: ClassVar[Utilities] = AREA

@@ -213,7 +213,7 @@ class AdiabaticHumidifier(Unit):
     saturation_effectiveness: Fraction = 0.9
 
     limits: ClassVar[Limits] = {
-        "drain": Limit("water left at the drain of the humidifier", 1e-9, 1.0, "percent", "ashrae2017")
+        "drain": Limit("water left at the drain of the humidifier", 1e-7, 100.0, "percent", "ashrae2017")
     }
 
     def outlets(self, inside: None, gas: Stream, water: Stream) -> Humidified:
@@ -263,4 +263,4 @@ class AdiabaticHumidifier(Unit):
     def measured(
         self, inside: None, outlets: Humidified, figures: HumidifierFigures, gas: Stream, water: Stream
     ) -> dict[str, Any]:
-        return {"drain": outlets.drain.liquid_flow / jnp.maximum(water.liquid_flow, 1e-300)}
+        return {"drain": 100.0 * outlets.drain.liquid_flow / jnp.maximum(water.liquid_flow, 1e-300)}
