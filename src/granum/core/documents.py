@@ -26,7 +26,7 @@ def read_toml(text: str) -> dict[str, Any]:
     try:
         return tomli.loads(text)
     except tomli.TOMLDecodeError as problem:
-        raise InputError(_worded(str(problem))) from None
+        raise InputError(_unquoted(text, str(problem)) or _worded(str(problem))) from None
     except RecursionError:
         raise InputError(_("tables stand in tables deeper than {count}").format(count=DEEPEST)) from None
     except ValueError:  # Python reads no whole number of more than 4300 digits
@@ -64,6 +64,24 @@ _NAMED = (
     ("{name} is expected here", r"Expected ('=' .+|'\](?:\])?' .+|'.+')"),
     ("{name} is no character of TOML", r"(?:Found invalid|Illegal) character (.+)"),
 )
+
+
+def _unquoted(text: str, said: str) -> str | None:
+    """That a name with accents wants quotation marks, where the parser stopped at one.
+
+    >>> _unquoted("[feeds.fumées]", "Expected ']' at the end (at line 1, column 11)")
+    'names with accents stand between quotation marks, as in "fumées" (line 1, column 11)'
+    """
+    found = _SAID.fullmatch(said)
+    if not found or not found["line"]:
+        return None
+    line, column = int(found["line"]), int(found["column"])
+    place = next((w for w in re.finditer(r"[\w-]+", text.splitlines()[line - 1]) if w.end() >= column), None)
+    if place is None or place[0].isascii():
+        return None
+    message = _("names with accents stand between quotation marks, as in {example}")
+    at = _("line {line}, column {column}").format(line=line, column=column)
+    return f"{message.format(example=chr(34) + place[0] + chr(34))} ({at})"
 
 
 def _worded(said: str) -> str:

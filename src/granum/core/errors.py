@@ -9,6 +9,7 @@ from granum.core.i18n import _
 
 _MOST_TOLD = 6  # problems told at once
 _MOST_NAMES = 40  # names listed where none is like the one given
+_FEW_NAMES = 12  # of more than that
 _LONGEST_NAME = 100  # characters; what is longer is no misspelt name
 _TELLING = 4  # letters from which a word of a name stands for the name
 
@@ -118,9 +119,10 @@ def unknown_name(
         if others := ", ".join(further):
             message += " " + _("Or {names}?").format(names=others)
     elif known:
-        shown = ", ".join(known[:_MOST_NAMES])
-        if len(known) > _MOST_NAMES:
-            shown += " " + _("… and {count} more").format(count=len(known) - _MOST_NAMES)
+        told = known if len(known) <= _MOST_NAMES else known[:_FEW_NAMES]
+        shown = ", ".join(told)
+        if len(known) > len(told):
+            shown += " " + _("… and {count} more").format(count=len(known) - len(told))
         message += " " + _("Known names: {names}.").format(names=shown)
     if otherwise and not close:
         message += f" {otherwise}"

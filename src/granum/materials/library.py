@@ -12,6 +12,7 @@ useful solid::
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
@@ -85,6 +86,11 @@ def stated(sort: str, name: str) -> str:
     """How a person states a material that the library lacks."""
     if sort not in OWN:
         return ""
+    if sort == "solid":
+        return _(
+            "One of your own is described in the case by `[solid.{name}]` with "
+            '`density = "1400 kg/m3"` and `heat_capacity = "1 kJ/(kg K)"`.'
+        ).format(name=name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else f'"{name}"')
     return _('State the properties of one that the library lacks in a table [{sort}."{name}"].').format(
         sort=sort, name=name
     )

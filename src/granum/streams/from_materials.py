@@ -277,25 +277,14 @@ def _below_vapor(solid: Solid, vapor: Fluid, T: Any) -> Any:
 
 
 def _inert(known: Library, name: str, systems: Mapping[str, SoluteSystem]) -> Species:
-    try:
-        known.entry("solid", name)
-    except InputError as unknown:
-        if name in systems:
-            crystals = " ".join(f"'{b.crystal.name}'," for b in systems[name].branches).rstrip(",")
-            raise InputError(
-                _(
-                    "'{name}' is dissolved; what crystallizes from it is {crystals}: give one of these."
-                ).format(name=name, crystals=crystals),
-                name=name,
-            ) from None
+    if name in systems and known.called(name, "solid") is None:
+        crystals = " ".join(f"'{b.crystal.name}'," for b in systems[name].branches).rstrip(",")
         raise InputError(
-            f"{unknown.message} "
-            + _(
-                "One of your own is described in the case by `[solid.{name}]` with "
-                '`density = "1400 kg/m3"` and `heat_capacity = "1 kJ/(kg K)"`.'
-            ).format(name=f'"{name}"' if " " in name else name),
-            **unknown.details,
-        ) from None
+            _("'{name}' is dissolved; what crystallizes from it is {crystals}: give one of these.").format(
+                name=name, crystals=crystals
+            ),
+            name=name,
+        )
     s = known.solid(name)
     return Species(
         s.name,
