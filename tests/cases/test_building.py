@@ -168,6 +168,11 @@ def test_a_feed_is_the_same_stream_in_either_form_and_its_shares_add_up() -> Non
     assert (table["mass_flow"], table["solids_mass_fraction"]) == ("1200 kg/h", "16.66666667 %")
     back = tomllib.loads(b.form_of_feed(totals, "slurry", "phases"))["feeds"]["slurry"]
     assert back["liquid_flow"] == "1000 kg/h"
+    moist = totals.replace('solids_mass_fraction = "16.66666667 %"', "moisture_dry_basis = 5.0")
+    assert moist != totals
+    by_phase = b.form_of_feed(moist, "slurry", "phases")
+    assert tomllib.loads(by_phase)["feeds"]["slurry"]["liquid_flow"] == "1000 kg/h"
+    assert "moisture" not in by_phase
     mixed = b.add_feed(b.new_line("Salt", **SALT), "liquor")
     shares = tomllib.loads(b.share_of_feed(mixed, "liquor", "liquid", "potassium nitrate", "55,5 %"))[
         "feeds"

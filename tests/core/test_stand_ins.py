@@ -7,6 +7,7 @@ from granum.cases.alone import alone, tables
 from granum.cases.worded import study_text
 from granum.centrifuges import centrifugal_effect
 from granum.conveying import deposition_velocity_durand, saltation_velocity_rizk
+from granum.core.conversion import law_of
 from granum.core.errors import InputError
 from granum.cyclones import cyclone_efficiency_lapple
 from granum.cyclones.geometry import StandardCyclone
@@ -89,3 +90,11 @@ def test_a_study_tells_what_it_varies_instead():
     ):
         with pytest.raises(InputError, match="stands in place of"):
             study_text(key, words)
+
+
+def test_a_name_turned_around_is_the_same_input_and_not_half_of_it():
+    """`moisture_critical` had been taken for a diameter, and halved."""
+    kinetics = law_of("drying_kinetics", "kinetics_van_meel", "", {"moisture_critical": 0.1})
+    assert kinetics.critical_moisture == 0.1
+    with pytest.raises(InputError, match="given twice"):
+        law_of("drying_kinetics", "kinetics_van_meel", "", {"moisture_critical": 0.1, "critical_moisture": 1})

@@ -34,6 +34,29 @@ def test_flows_and_shares_by_hand() -> None:
     assert float(made.gas_flow) == 0.0
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"solid_flow": "3 t/h", "moisture_dry_basis": 1.0 / 3.0},
+        {"solid_flow": "3 t/h", "moisture_wet_basis": "25 %"},
+        {"mass_flow": "4 t/h", "moisture_wet_basis": 0.25},
+        {"mass_flow": "4 t/h", "moisture_dry_basis": "333.3333333333 g/kg"},
+    ],
+)
+def test_a_moisture_says_the_liquid(said) -> None:
+    wet = feed(WET, solid={"quartz": 1.0, "calcite": 0.0}, sizes=EVEN, **said)
+    assert float(wet.solid_flow) == pytest.approx(3.0 / 3.6, rel=1e-9)
+    assert float(wet.liquid_flow) == pytest.approx(1.0 / 3.6, rel=1e-9)
+
+
+def test_a_moisture_stands_alone() -> None:
+    quartz = {"solid": {"quartz": 1.0, "calcite": 0.0}, "sizes": EVEN}
+    with pytest.raises(InputError, match="give one of"):
+        feed(WET, solid_flow=1.0, liquid_flow=1.0, moisture_dry_basis=0.3, **quartz)
+    with pytest.raises(InputError, match="needs the 'solid_flow'"):
+        feed(WET, moisture_wet_basis=0.3, **quartz)
+
+
 def test_a_feed_may_be_a_volume() -> None:
     """By hand: water of 20 °C has 998.2 kg/m³, quartz 2650; dry air 1.2041 at 1 atm, US gallons 3.7854 L. A
     humid gas is as large as its vapor makes it.

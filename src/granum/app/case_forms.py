@@ -39,6 +39,8 @@ FEED_KINDS = {
     "solids_mass_fraction": "MassFraction",
     "solid_flow": "MassFlow",
     "liquid_flow": "MassFlow",
+    "moisture_dry_basis": "MoistureDryBasis",
+    "moisture_wet_basis": "MoistureWetBasis",
     "gas_flow": "MassFlow",
     "relative_humidity": "Fraction",
     "temperature": "Temperature",

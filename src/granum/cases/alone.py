@@ -17,7 +17,7 @@ from typing import Any
 
 import tomli
 
-from granum.cases.flows import BY_PHASE, BY_TOTAL, in_phases, in_totals
+from granum.cases.flows import BY_PHASE, BY_TOTAL, MOISTURES, in_phases, in_totals
 from granum.cases.reading import read_text
 from granum.cases.schema import OWN, FeedTable
 from granum.cases.tables import as_toml, put
@@ -127,7 +127,10 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
         for these, others, said in ((BY_TOTAL, BY_PHASE, in_totals), (BY_PHASE, BY_TOTAL, in_phases)):
             if field in these and value != "" and any(other in feed for other in others):
                 # the flow of the example said this way, so that what is not said stays
-                feed |= said({other: feed.pop(other) for other in others if other in feed})
+                feed |= said({other: feed.pop(other) for other in (*others, *MOISTURES) if other in feed})
+        in_place = ("liquid_flow", "solids_mass_fraction")
+        for gone in (*in_place, *MOISTURES) if field in MOISTURES else MOISTURES if field in in_place else ():
+            feed.pop(gone, None)
         if value == "":
             feed.pop(rest, None)
         else:

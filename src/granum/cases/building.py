@@ -16,7 +16,16 @@ from typing import Any, Concatenate, ParamSpec
 
 import tomlkit
 
-from granum.cases.flows import BY_PHASE, BY_TOTAL, WATER, flow_of, in_phases, in_totals, percent
+from granum.cases.flows import (
+    BY_PHASE,
+    BY_TOTAL,
+    MOISTURES,
+    WATER,
+    flow_of,
+    in_phases,
+    in_totals,
+    percent,
+)
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
 from granum.cases.reading import knowing_own, own_materials, parsed, quantity
 from granum.cases.scaling import entering, gas_of, scale_of, scaled
@@ -254,7 +263,9 @@ def completed(case: str, feed: str) -> str:
     mixture, table = table_of(raw, "mixture"), table_of(table_of(raw, "feeds"), feed)
     totals = "mass_flow" in table
     flows = {phase: f"{phase}_flow" in table for phase in ("solid", "liquid", "gas")}
-    flows |= {"liquid": flows["liquid"] or totals, "solid": flows["solid"] or "solids_mass_fraction" in table}
+    moist = any(name in table for name in MOISTURES)
+    flows["liquid"] |= totals or moist
+    flows["solid"] |= "solids_mass_fraction" in table or moist
     crystal = crystallizing(mixture)[2]
     for phase, species in (("solid", "solids"), ("liquid", "liquids"), ("gas", "gases")):
         names = listed(mixture, species)
@@ -281,9 +292,9 @@ def form_of_feed(case: str, feed: str, form: str) -> str:
     table = table_of(table_of(parsed(case, "case"), "feeds"), feed)
     place = ("feeds", feed)
     if form == "totals" and "mass_flow" not in table:
-        gone, told = BY_PHASE, in_totals(table)
+        gone, told = (*BY_PHASE, *MOISTURES), in_totals(table)
     elif form == "phases" and "mass_flow" in table:
-        gone, told = BY_TOTAL, in_phases(table)
+        gone, told = (*BY_TOTAL, *MOISTURES), in_phases(table)
     elif form in ("totals", "phases"):
         gone, told = (), {}
     else:

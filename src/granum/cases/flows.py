@@ -11,6 +11,8 @@ from granum.core.i18n import _
 from granum.core.units import in_unit_of
 
 BY_TOTAL, BY_PHASE = ("mass_flow", "solids_mass_fraction"), ("solid_flow", "liquid_flow")
+MOISTURES = ("moisture_dry_basis", "moisture_wet_basis")
+"""Which may stand for the share of solid as well as for the flow of liquid."""
 WATER = 1000.0  # kg/m³, near enough to size what a feed needs
 
 
@@ -29,9 +31,21 @@ def in_totals(feed: Mapping[str, Any]) -> dict[str, str]:
 def in_phases(feed: Mapping[str, Any]) -> dict[str, str]:
     """Flows of the phases of a feed that says its total; that of the solid where there is any."""
     total = flow_of(feed, "mass_flow")
-    share = quantity(feed.get("solids_mass_fraction", 0.0), "MassFraction", "solids_mass_fraction", "")
+    share = _dry_share(feed)
+    if share is None:
+        share = quantity(feed.get("solids_mass_fraction", 0.0), "MassFraction", "solids_mass_fraction", "")
     solid = {"solid_flow": _said(total * share)} if share else {}
     return solid | {"liquid_flow": _said(total * (1.0 - share))}
+
+
+def _dry_share(feed: Mapping[str, Any]) -> float | None:
+    """Solid in solid and liquid, by the moisture that a feed says; None where it says none."""
+    if "moisture_dry_basis" in feed:
+        X = quantity(feed["moisture_dry_basis"], "MoistureDryBasis", "moisture_dry_basis", "")
+        return 1.0 / (1.0 + X)
+    if "moisture_wet_basis" in feed:
+        return 1.0 - quantity(feed["moisture_wet_basis"], "MoistureWetBasis", "moisture_wet_basis", "")
+    return None
 
 
 def flow_of(feed: Mapping[str, Any], name: str, per_volume: float | None = None) -> float:
@@ -39,6 +53,9 @@ def flow_of(feed: Mapping[str, Any], name: str, per_volume: float | None = None)
     a density, kg/m³, is near enough.
     """
     value = feed.get(name)
+    share = _dry_share(feed) if name == "liquid_flow" and "mass_flow" not in feed else None
+    if share is not None:
+        return flow_of(feed, "solid_flow") * (1.0 / share - 1.0)
     if isinstance(value, str) and in_unit_of(value, "m^3/s"):
         if per_volume is None:
             raise InputError(

@@ -61,6 +61,12 @@ class FeedTable(_Strict):
         default=None, description="solid and liquid together, divided by 'solids_mass_fraction'"
     )
     solids_mass_fraction: Quantity | None = None
+    moisture_dry_basis: Quantity | None = Field(
+        default=None, description="liquid per mass of dry solid, in place of 'liquid_flow'"
+    )
+    moisture_wet_basis: Quantity | None = Field(
+        default=None, description="liquid per mass of wet solid, in place of 'liquid_flow'"
+    )
     liquid_flow: Quantity | None = None
     liquid: dict[str, Quantity] = {}
     solid_flow: Quantity | None = None

@@ -94,9 +94,13 @@ def stands_for(name: str, known: Container[str]) -> str | None:
     'bowl_radius'
     >>> stands_for("outer_diameter", ["radius_inner", "radius_outer"])
     'radius_outer'
+    >>> stands_for("outlet_temperature", ["temperature_inlet", "temperature_outlet"])
+    'temperature_outlet'
     """
     if name in known:
         return None
+    if _turned(name) in known:
+        return _turned(name)
     if name == "standard":
         lengths = _designed(known)
         return lengths[0] if lengths else None
@@ -116,9 +120,15 @@ def stands_for(name: str, known: Container[str]) -> str | None:
 
 def _radii(diameter: str) -> tuple[str, ...]:
     """The radii that a diameter may mean: the word turned, or the wall of a bowl or basket, in order."""
+    if "diameter" not in diameter.split("_"):
+        return ()
     same = diameter.replace("diameter", "radius")
-    turned = "_".join(reversed(same.split("_"))) if same.count("_") == 1 else same
-    return (same, turned, *_WALLS.get(diameter, ()))
+    return (same, _turned(same), *_WALLS.get(diameter, ()))
+
+
+def _turned(name: str) -> str:
+    """A name of two words the other way round: the outlet temperature is the temperature of the outlet."""
+    return "_".join(reversed(name.split("_"))) if name.count("_") == 1 else name
 
 
 def given_by(names: Iterable[str], known: Container[str]) -> frozenset[str]:
@@ -159,7 +169,9 @@ class StandIns:
             wanted = stands_for(name, self.known)
             if wanted is None:
                 continue
-            if name == "standard":
+            if wanted == _turned(name):
+                self._put(name, wanted, self.values[name])
+            elif name == "standard":
                 self._standard()
             elif name in _BY_DENSITY:
                 self._by_density(name, wanted)
@@ -195,12 +207,13 @@ class StandIns:
             through = through / self._density(flow, "superficial_velocity")
         self._put(flow, "superficial_velocity", through, _("flow over the cross-section of the diameter"))
 
-    def _put(self, name: str, wanted: str, value: Any, origin: str) -> None:
+    def _put(self, name: str, wanted: str, value: Any, origin: str = "") -> None:
         if wanted in self.values or self.known[wanted] < self.given_by_place:
             self._twice(wanted, name)
         self.values.pop(name, None)
         self.values[wanted] = value
-        self.origins[wanted] = origin
+        if origin:
+            self.origins[wanted] = origin
 
     def _twice(self, wanted: str, name: str) -> NoReturn:
         message = _("'{name}' was given twice for {owner}.")

@@ -27,6 +27,11 @@ Given = Any
 """A number in SI, or a text with its unit."""
 PHASES = {"solids": "solid", "liquids": "liquid", "gases": "gas"}
 """By phase of a mixture the word of a feed for the shares of its species."""
+KIND = {
+    "solids_mass_fraction": "MassFraction",
+    "moisture_dry_basis": "MoistureDryBasis",
+    "moisture_wet_basis": "MoistureWetBasis",
+}
 LEAST_INSIDE = 0.98  # of a feed that its size classes must hold
 
 
@@ -37,6 +42,8 @@ def feed(
     pressure: Given = "1 atm",
     mass_flow: Given = None,
     solids_mass_fraction: Given = None,
+    moisture_dry_basis: Given = None,
+    moisture_wet_basis: Given = None,
     liquid_flow: Given = None,
     liquid: Mapping[str, Given] | None = None,
     solid_flow: Given = None,
@@ -55,6 +62,8 @@ def feed(
         ``solid_flow``. All but the last may be a volume at the feed's temperature and pressure (m³/h, gpm,
         cfm): of the slurry, of the liquid with what is dissolved in it, of the gas with its vapor, which
         may also be one at 0 °C and 1 atm (Nm³/h).
+    moisture_dry_basis, moisture_wet_basis: of a moist solid, liquid per mass of dry or of wet solid, in place
+        of ``liquid_flow`` or ``solids_mass_fraction``.
     liquid, solid, gas: mass fractions by name; need not be given where there is one species.
     relative_humidity: of a gas, sets its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it
         where there are several.
@@ -99,23 +108,42 @@ def feed(
         return 1.0 / float(np.sum(shares(phase, given) / np.asarray(mixture.densities(phase, warm))))
 
     solids = None if solid_flow is None else quantity(solid_flow, "MassFlow", "solid_flow")
+    said = {
+        "solids_mass_fraction": solids_mass_fraction,
+        "moisture_dry_basis": moisture_dry_basis,
+        "moisture_wet_basis": moisture_wet_basis,
+    }
+    if moisture_dry_basis is not None or moisture_wet_basis is not None:
+        if sum(value is not None for value in (*said.values(), liquid_flow)) > 1:
+            raise InputError(
+                _(
+                    "{where}: give one of 'moisture_dry_basis', 'moisture_wet_basis', "
+                    "'solids_mass_fraction' and 'liquid_flow'."
+                ).format(where=where)
+            )
+        if solids is None and mass_flow is None:
+            raise InputError(
+                _("{where}: a moisture needs the 'solid_flow' that it is of, or 'mass_flow'.").format(
+                    where=where
+                )
+            )
+    share = next(
+        (_dry(name, quantity(v, KIND[name], name)) for name, v in said.items() if v is not None), 0.0
+    )
     liquids = None
+    if solids is not None and share and solids_mass_fraction is None:
+        liquids = solids * (1.0 / share - 1.0)
     if liquid_flow is not None:
         liquids, volume = amount(liquid_flow, "liquid_flow")
         liquids *= per_volume("liquids", liquid) if volume and liquids else 1.0
     if mass_flow is not None:
-        if solids is not None or liquids is not None:
+        if solids is not None or liquid_flow is not None:
             raise InputError(
                 _("{where}: give 'mass_flow', or 'solid_flow' and 'liquid_flow', not both.").format(
                     where=where
                 )
             )
         total, volume = amount(mass_flow, "mass_flow")
-        share = (
-            0.0
-            if solids_mass_fraction is None
-            else quantity(solids_mass_fraction, "MassFraction", "solids_mass_fraction")
-        )
         if volume and total:
             parts = ((share, "solids", solid), (1.0 - share, "liquids", liquid))
             total /= sum(part / per_volume(phase, given) for part, phase, given in parts if part)
@@ -155,6 +183,13 @@ def feed(
             )
         )
     return stream
+
+
+def _dry(name: str, value: float) -> float:
+    """Solid in solid and liquid from what says it."""
+    if name == "moisture_dry_basis":
+        return 1.0 / (1.0 + value)
+    return 1.0 - value if name == "moisture_wet_basis" else value
 
 
 def _humid(
