@@ -52,16 +52,15 @@ def test_study_and_recipe_find_the_same_profile():
     assert np.all(np.diff(best.temperature) <= 1e-9)
 
 
-@pytest.mark.parametrize(
-    ("case", "saturated", "spread"), [("vacuum", 0.277 / 0.723, 0.01), ("jacketed", 0.4992, 0.015)]
-)
-def test_driven_batches_end_at_the_printed_solubility(case, saturated, spread):
-    """CRC: 27.7 % at 25 °C; at the 32.8 °C of the jacketed batch between 31.3 % (30 °C) and 38.6 % (40 °C),
-    by logarithms of the ratio.
-    """
+@pytest.mark.parametrize("case", ["vacuum", "jacketed"])
+def test_driven_batches_end_at_the_printed_solubility(case):
+    """CRC: 27.7 % at 25 °C, 31.3 % at 30 °C and 38.6 % at 40 °C; between these by logarithms of the ratio."""
     run = gr.read(EXAMPLES / "seeded-crystallizer" / f"{case}.toml").solve()
     assert run.audit["mass_closure"] < 1e-12
-    water, salt = (float(v) for v in run.streams["suspension"].liquid)
-    assert salt / water == pytest.approx(saturated, rel=spread)
+    end = run.streams["suspension"]
+    water, salt = (float(v) for v in end.liquid)
+    printed = np.log(np.array([27.7, 31.3, 38.6]) / (100.0 - np.array([27.7, 31.3, 38.6])))
+    saturated = np.exp(np.interp(float(end.temperature) - 273.15, [25.0, 30.0, 40.0], printed))
+    assert salt / water == pytest.approx(saturated, rel=0.015)
     failed = [c.name for c in run.units["crystallizer"].checks if not c.ok]
     assert failed == (["undercooling at the cooled wall"] if case == "jacketed" else [])
