@@ -1,10 +1,10 @@
 """Which other machine suits what enters one whose checks fail: the ranked card of its sort, opened with the
 numbers of the stream.
 
-Dryers are held against ``drying.choose``, what parts solid from liquid against ``filtration.separator_choice``.
-What such a card asks and no stream tells, such as what the product bears, stays as the card has it. Whether a
-feed is a liquid, a paste or a powder follows from its size and its share of liquid: our own estimate, which the
-card shows and everybody can change there.
+Dryers are held against ``drying.choose``, what parts solid from liquid against
+``filtration.separator_choice``. What such a card asks and no stream tells, such as what the product bears,
+stays as the card has it. Whether a feed is a liquid, a paste or a powder follows from its size and its share
+of liquid: our own estimate, which the card shows and everybody can change there.
 """
 
 from __future__ import annotations
@@ -62,7 +62,11 @@ class Advice(NamedTuple):
 
     def as_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {**self._asdict(), "others": [other._asdict() for other in self.others], "command": self.command}
+        return {
+            **self._asdict(),
+            "others": [other._asdict() for other in self.others],
+            "command": self.command,
+        }
 
 
 class _Choice(NamedTuple):
@@ -119,26 +123,31 @@ def _told(key: str, choice: _Choice, asked: dict[str, str], ranked: Any) -> Advi
     mark = max((float(marks[i]) for i in own), default=0.0)
     title = registry.find(key).card.title
     if mark >= SETTLED * float(np.max(marks)):
-        told = _("{machine}: its kind suits what enters it. Look at its size and its settings.")
+        told = _(
+            "{machine}: no other sort of machine suits what enters it much better. Look at its size, its "
+            "settings and what comes before it."
+        )
         return Advice(choice.card, asked, (), told.format(machine=title))
     better = [i for i in range(len(names)) if marks[i] >= max(FITS, mark) and i not in own][:MOST]
-    others = tuple(
-        Other(names[i], "; ".join(ranked.speaks_for[i].split("; ")[:REASONS]), models[names[i]][0])
-        for i in better
-    )
-    against = next((ranked.speaks_against[i] for i in own if ranked.speaks_against[i]), "")
-    return Advice(choice.card, asked, others, " ".join(filter(None, _sentences(title, against, others))))
+    others = tuple(Other(names[i], _first(ranked.speaks_for[i]), models[names[i]][0]) for i in better)
+    against = next((_first(ranked.speaks_against[i]) for i in own), "")
+    return Advice(choice.card, asked, others, _sentences(title, against, others))
 
 
-def _sentences(title: str, against: str, others: tuple[Other, ...]) -> tuple[str, str]:
-    why = _("{machine} hardly suits what enters it ({why}).").format(machine=title, why=against)
-    rows = ", ".join(f"{o.name} ({o.reasons})" if o.reasons else o.name for o in others)
-    return (
-        why if against else "",
-        _("Other machines suit it better: {others}.").format(others=rows)
+def _first(reasons: str) -> str:
+    """The first of several reasons."""
+    return ", ".join(reasons.split("; ")[:REASONS])
+
+
+def _sentences(title: str, against: str, others: tuple[Other, ...]) -> str:
+    why = _("{machine} hardly suits what enters it: {why}.").format(machine=title, why=against)
+    rows = "; ".join(f"{o.name} ({o.reasons})" if o.reasons else o.name for o in others)
+    told = (
+        _("What enters suits other machines better: {others}.").format(others=rows)
         if others
-        else _("No other machine of its kind suits it well either."),
+        else _("No other machine that is ranked suits it well either.")
     )
+    return f"{why} {told}" if against else told
 
 
 def _written(value: Any, unit: str, digits: int = 4) -> str:
