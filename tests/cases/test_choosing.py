@@ -88,7 +88,7 @@ def test_it_is_said_in_french() -> None:
     with language("fr"):
         found = told("centrifuges.pusher")
         assert found.others[0].name == registry.find(found.card)(**found.inputs)[0][0]
-    assert "conviennent mieux" in found.told
+    assert "Conviennent mieux" in found.told
     assert not re.search(r"\b(the|made|outside|hardly)\b", found.told)
 
 

@@ -25,7 +25,7 @@ from granum.flowsheet.run import Run, UnitReport
 from granum.streams.stream import Stream, median_size
 
 SETTLED = 0.75  # of the best: from here on a machine fits well, and its settings are to be looked at
-FITS = 0.4  # below, a machine is not proposed
+FITS = 0.4  # below, a machine hardly suits and is not proposed
 MOST = 3  # proposals
 REASONS = 2  # of each
 FLOWING, STANDING = 0.4, 0.6  # volume of solid in solid and liquid: below it flows, above it crumbles
@@ -116,7 +116,7 @@ def _ends(run: Run, name: str, side: str) -> dict[str, Stream]:
     return {port: run.streams[link.name] for link, (unit, _dot, port) in ends.items() if unit == name}
 
 
-def _told(key: str, choice: _Choice, asked: dict[str, str], ranked: Any) -> Advice:
+def _told(key: str, choice: _Choice, asked: dict[str, str], ranked: Any) -> Advice | None:
     models = {_(row["name"]): row["models"].split() for row in dataset(*choice.table)}
     names, marks = list(ranked[0]), np.asarray(ranked.suitability)
     own = [i for i, name in enumerate(names) if key in models[name]]
@@ -130,8 +130,10 @@ def _told(key: str, choice: _Choice, asked: dict[str, str], ranked: Any) -> Advi
         return Advice(choice.card, asked, (), told.format(machine=title))
     better = [i for i in range(len(names)) if marks[i] >= max(FITS, mark) and i not in own][:MOST]
     others = tuple(Other(names[i], _first(ranked.speaks_for[i]), models[names[i]][0]) for i in better)
-    against = next((_first(ranked.speaks_against[i]) for i in own), "")
-    return Advice(choice.card, asked, others, _sentences(title, against, others))
+    why = next((_first(ranked.speaks_against[i]) for i in own), "") if mark < FITS else ""
+    if not why and not others:
+        return None
+    return Advice(choice.card, asked, others, _sentences(title, bool(own), why, others))
 
 
 def _first(reasons: str) -> str:
@@ -139,15 +141,25 @@ def _first(reasons: str) -> str:
     return ", ".join(reasons.split("; ")[:REASONS])
 
 
-def _sentences(title: str, against: str, others: tuple[Other, ...]) -> str:
-    why = _("{machine} hardly suits what enters it: {why}.").format(machine=title, why=against)
-    rows = "; ".join(f"{o.name} ({o.reasons})" if o.reasons else o.name for o in others)
+def _sentences(title: str, ranked: bool, why: str, others: tuple[Other, ...]) -> str:
+    rows = ", ".join(f"{o.name} ({o.reasons})" if o.reasons else o.name for o in others)
+    if not ranked:
+        return _("{machine}: machines that suit what enters it are {others}.").format(
+            machine=title, others=rows
+        )
+    if not why:
+        told = _(
+            "{machine}: first look at its size and its settings. Would suit what enters even better: "
+            "{others}."
+        )
+        return told.format(machine=title, others=rows)
     told = (
-        _("What enters suits other machines better: {others}.").format(others=rows)
+        _("Machines that suit it better: {others}.").format(others=rows)
         if others
         else _("No other machine that is ranked suits it well either.")
     )
-    return f"{why} {told}" if against else told
+    hardly = _("{machine} hardly suits what enters it: {why}.").format(machine=title, why=why)
+    return f"{hardly} {told}"
 
 
 def _written(value: Any, unit: str, digits: int = 4) -> str:
