@@ -30,6 +30,7 @@ MOST = 3  # proposals
 REASONS = 2  # of each
 FLOWING, STANDING = 0.4, 0.6  # volume of solid in solid and liquid: below it flows, above it crumbles
 FINE, COARSE = 100e-6, 5e-3  # m: grains below stick to a paste, those above are pieces
+DRYERS, SEPARATORS = ("drying", "dryers_houdon2017"), ("filtration", "separators_svarovsky2001")
 WEBS = ("drying.paper_machine", "drying.impingement_dryer", "drying.radiant_dryer")
 
 
@@ -102,11 +103,10 @@ def _advised(run: Run, name: str, report: UnitReport) -> Advice | None:
 
 def _choice(key: str) -> _Choice | None:
     domain = key.partition(".")[0]
-    table = "filtration", "separators_svarovsky2001"
     if domain == "drying":
-        return _Choice("drying.choose", ("drying", "dryers_houdon2017"), _of_dryer)
-    if any(key in row["models"].split() for row in dataset(*table)):
-        return _Choice("filtration.separator_choice", table, _of_separator)
+        return _Choice("drying.choose", DRYERS, _of_dryer)
+    if any(key in row["models"].split() for row in dataset(*SEPARATORS)):
+        return _Choice("filtration.separator_choice", SEPARATORS, _of_separator)
     return None
 
 
@@ -223,14 +223,18 @@ def _form(key: str, feed: Stream) -> str:
 
 
 def _of_separator(
-    _report: UnitReport, entering: Mapping[str, Stream], leaving: Mapping[str, Stream]
+    report: UnitReport, entering: Mapping[str, Stream], leaving: Mapping[str, Stream]
 ) -> dict[str, str] | None:
     feed = entering["feed"]
     size = median_size(feed)
     if size is None or not float(feed.liquid_flow) > 0.0:
         return None
     richest = max(leaving.values(), key=lambda s: float(s.solid_flow))
-    here, left = once(_slurry, feed), 1.0 - float(once(_slurry, richest).solid)
+    here = once(_slurry, feed)
+    key, rows = report.model.card.key, dataset(*SEPARATORS)
+    # as dry as here, but no drier than such machines are said to leave it
+    usual = max((row["liquid_left"] for row in rows if key in row["models"].split()), default=0.0)
+    left = max(1.0 - float(once(_slurry, richest).solid), usual)
     asked = {
         "particle_diameter": _written(1e6 * size, "um"),
         "density_difference": _written(here.difference, "kg/m^3"),

@@ -18,6 +18,8 @@ from granum.core.errors import GranumError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
+from granum.core.units import from_si
+from granum.core.written import read_number
 from granum.reports.quantities import value_text
 
 # the power of the flow with which they grow: areas and contents in proportion, what a stream flows through
@@ -130,8 +132,11 @@ def _grown(p: Parameter, value: Any, times: float) -> Any:
     size = times ** POWERS[p.name] * float(convert(value, p))
     if p.name.endswith("_number"):
         return max(ceil(size - 1e-9), 1)
-    unit = "" if p.kind is None else p.kind.unit
-    return f"{float(f'{size:.2g}'):.10g} {unit}"
+    if p.kind is None:
+        return size
+    typed = read_number(value) if isinstance(value, str) else None
+    unit = typed[1] if typed is not None and typed[1] else p.kind.unit  # as somebody wrote it
+    return f"{float(f'{float(from_si(size, unit, p.kind)):.2g}'):.10g} {unit}"
 
 
 def size_told(model: str, made: Mapping[str, Any], scale: Scale) -> str:
