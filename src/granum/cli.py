@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -141,12 +141,27 @@ def _operate(key: str, inputs: Mapping[str, str], as_json: bool, solve: str) -> 
         outcome = read_text(case_text(key, inputs), name=key).solve()
         rest, against = assumed(key, inputs), ""
     if as_json:
-        emit(outcome.as_json() | {"assumed": rest} | ({"doubts": against} if against else {}))
+        told = {"assumed": rest} | ({"doubts": against} if against else {})
+        emit(outcome.as_json() | told | _advice(outcome))
     else:
         print_run(outcome)
         if against:
             print(against)
+        _print_advice(outcome)
         _print_assumed(rest)
+
+
+def _advice(outcome: Any) -> dict[str, Any]:
+    """Which machines suit better than those that fail their checks, as plain data."""
+    from granum.cases.choosing import advice
+
+    found = {name: one.as_json() for name, one in advice(outcome).items()}
+    return {"advice": found} if found else {}
+
+
+def _print_advice(outcome: Any) -> None:
+    for name, one in _advice(outcome).get("advice", {}).items():
+        print(f"{name}: {one['told']}\n  {one['command']}")
 
 
 def _print_assumed(rest: Mapping[str, str]) -> None:
@@ -259,11 +274,12 @@ def run(
     if tables is not None:
         outcome.tables(tables)
     if as_json:
-        emit(outcome.as_json())
+        emit(outcome.as_json() | _advice(outcome))
     else:
         from granum.reports.terminal_run import print_run
 
         print_run(outcome, saved=[p for p in (report, tables) if p is not None])
+        _print_advice(outcome)
 
 
 @app.command()

@@ -55,11 +55,17 @@ def test_streams_and_units_of_a_message_are_called_as_in_the_drawing(
 
 
 def test_a_limit_of_one_value_is_no_range() -> None:
-    row = check_row(
-        Check("crystals in the steady state (1 if there are any)", 1.0, 1.0, 1.0, "dimensionless", "")
-    )
-    assert row.ok
-    assert row.allowed == "= 1"
+    assert check_row(Check("number of stages", 2.0, 2.0, 2.0, "dimensionless", "")).allowed == "= 2"
+
+
+@pytest.mark.parametrize(("language_code", "words"), [("en", ("yes", "no")), ("fr", ("oui", "non"))])
+def test_what_holds_or_not_is_told_as_yes_or_no(language_code: str, words: tuple[str, str]) -> None:
+    with language(language_code):
+        rows = [check_row(Check("crystals form", x, 1.0, 1.0, "dimensionless", "")) for x in (1.0, 0.0)]
+    assert [(row.ok, row.text, row.allowed) for row in rows] == [
+        (True, words[0], f"= {words[0]}"),
+        (False, words[1], f"= {words[0]}"),
+    ]
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import base64
 import re
+from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
@@ -13,6 +14,8 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from tests.app.browsing import Page, resize
+
+from granum.cases import read
 
 SPHERE = "particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"  # noqa: E501
 STOKES = f"calculate/particles.terminal_velocity_stokes?{SPHERE}"
@@ -203,3 +206,52 @@ def test_a_line_on_paper_is_its_diagram_findings_and_streams_with_no_column_cut(
     assert all(0 < end <= 689 for end in seen["ends"]), seen
     assert seen["folded"] == 0
     assert seen["fields"] == 0
+
+
+def test_a_unit_stands_beside_its_number_on_paper(page: Page) -> None:
+    page.open(STOKES, "fr")
+    page.one("[data-output]")
+    width, gap, cut = on_paper(
+        page,
+        """
+        const field = document.querySelector('#field-particle_diameter');
+        const [number, unit] = [field, field.parentElement.querySelector('select')];
+        const [a, b] = [number, unit].map((e) => e.getBoundingClientRect());
+        return [a.width, b.left - a.right, number.scrollWidth - number.clientWidth];
+        """,
+    )
+    assert 8.0 < width < 60.0  # no wider than what stands in it
+    assert 0.0 <= gap < 12.0
+    assert cut <= 1.0
+
+
+def test_the_address_of_a_line_on_paper_is_one_that_can_be_typed(page: Page) -> None:
+    page.open("lines", "fr")
+    page.button("Nouvelle ligne").click()
+    page.until(lambda: page.all("#new-solute"))
+    page.button("Créer la ligne").click()
+    page.until(lambda: "case=" in page.browser.current_url)
+    told = on_paper(page, "return document.querySelector('.printed').textContent")
+    assert "#/lines" in told
+    assert "case=" not in told
+
+
+def test_flows_of_a_report_are_all_there_on_paper(page: Page, tmp_path: Path) -> None:
+    case = Path(__file__).parents[2] / "examples" / "cyclone" / "pair.toml"
+    report = tmp_path / "report.html"
+    read(case).solve().report(report)
+    page.browser.get(report.as_uri())
+    page.one(".sankey-link")
+    flows = "return [...document.querySelectorAll('.sankey-link')].map((e) => e.getAttribute('d').length > 0)"
+    before = page.browser.execute_script(flows)
+    seen = on_paper(
+        page,
+        """
+        const plots = [...document.querySelectorAll('.js-plotly-plot')];
+        const flows = [...document.querySelectorAll('.sankey-link')];
+        const seen = (e) => e.getAttribute('d') && getComputedStyle(e).opacity > 0.5;
+        return [flows.map((e) => Boolean(seen(e))), plots.every((e) => e.getBoundingClientRect().right <= innerWidth + 1)];
+        """,  # noqa: E501
+    )
+    assert all(before)
+    assert seen == [before, True]

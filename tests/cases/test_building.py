@@ -395,7 +395,7 @@ def test_a_line_of_another_size_gets_machines_of_that_size() -> None:
         "filter"
     ]
     large = tomllib.loads(b.add_unit(begun, "filtration.chamber_press"))["units"]["filter"]
-    assert (small["area"], large["area"]) == ("10 m^2", "100 m^2")
+    assert (small["area"], large["area"]) == ("10 m2", "100 m2")
     assert small["chamber_depth"] == large["chamber_depth"]
 
 

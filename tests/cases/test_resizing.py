@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 from granum.app.tasks import TASKS
 from granum.app.telling import Tell
 from granum.cases.reading import read_text
 from granum.cases.resizing import resized
+from granum.cases.sizing import _reached
 from granum.core.errors import InputError
 from granum.core.i18n import language
 
@@ -71,3 +73,21 @@ def test_nothing_is_sized_for_nothing() -> None:
     run = read_text(text, name="dust").solve()
     with pytest.raises(InputError, match="Nothing enters"):
         resized(run, "filter", "1 m/min")
+
+
+def test_what_lies_just_before_a_machine_has_no_answer_is_reached() -> None:
+    asked: list[int] = []
+
+    def look(x: np.ndarray) -> np.ndarray:
+        asked.append(x.size)
+        return np.where(x < 5.3, 2.0 * x, np.nan)
+
+    x = np.geomspace(0.1, 100.0, 31)  # 5.01 is the last of these with an answer, the next is 6.31
+    for wanted, count in ((3.0, 1), (10.4, 2), (11.0, 2)):
+        asked.clear()
+        settings, found = _reached(look, x, wanted)
+        assert len(asked) == count
+        assert set(asked) == {x.size}
+        assert np.all(np.diff(settings) > 0.0)
+        assert found == pytest.approx(2.0 * settings)
+        assert (found.max() >= wanted) == (wanted < 10.6)

@@ -15,6 +15,7 @@ from granum.app.own_substances import form_row, own_substances
 from granum.cases.building import completed, share_of_feed
 from granum.cases.outline import Outline, outline, table_of
 from granum.cases.reading import knowing_own, parsed, read_text
+from granum.cases.resizing import CAPACITY, FULL
 from granum.cases.sizing import duty
 from granum.cases.starting import listed
 from granum.core import registry
@@ -30,6 +31,7 @@ from granum.flowsheet.drawing import ACROSS, Loose, draw
 from granum.flowsheet.stream_figures import FIGURES, PHASES, worth_telling
 from granum.flowsheet.utilities import price_parameter
 from granum.materials.library import session
+from granum.reports.quantities import value_text
 from granum.reports.utilities import carrier_label
 from granum.streams.names import port_label, pretty
 
@@ -263,7 +265,8 @@ def _duty(card: Any) -> dict[str, str] | None:
     except GranumError:
         return None
     figure = next(p for p in card.outputs if p.name == own.figure)
-    return {"setting": card.parameter(own.setting).label, "figure": figure.label}
+    full = value_text(FULL, figure) if figure.name == CAPACITY else ""
+    return {"setting": card.parameter(own.setting).label, "figure": figure.label, "usual": full}
 
 
 def _figure(p: Parameter) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
 from granum.cases.alone import case_text
+from granum.cases.choosing import advice
 from granum.cases.resizing import resized
 from granum.core import kept, registry
 from granum.core.cards import Card
@@ -347,6 +348,7 @@ def _run(payload: dict[str, Any], tell: Tell) -> bytes:
             "utility_table": utility_table(outcome),
             "sankey": diagrams(outcome) if len(outcome.units) > 1 else [],
             "found": found_rows(outcome),
+            "advice": {name: one.as_json() for name, one in advice(outcome).items()},
         }
     )
 

@@ -21,6 +21,7 @@ from granum.flowsheet.specifications import Target
 from granum.reports.quantities import value_text
 
 DIGITS = 4
+CAPACITY, FULL = "capacity_use", 0.9  # a tenth in reserve, our own habit
 FLOW = "kg/s"  # the unit of a figure that is larger where more enters
 
 
@@ -62,15 +63,15 @@ class Resized(NamedTuple):
 
 def resized(run: Run, name: str, wanted: str = "") -> Resized:
     """The size of unit ``name`` for the streams that enter it: the setting of ``duty`` for which its figure
-    is ``wanted``, or what it is in the example of the machine alone; a flow is there in proportion to the
-    liquid that enters.
+    is ``wanted``, or what it is in the example of the machine alone, where a flow is in proportion to the
+    liquid that enters; where the figure is a share of its capacity, nine tenths.
     """
     unit = run.sheet.units[name]
     card = type(unit).card
     own = duty(card.key)
     setting, figure = card.parameter(own.setting), next(p for p in card.outputs if p.name == own.figure)
     alone = _alone(run, name, unit)
-    goal = float(convert(wanted, figure)) if wanted.strip() else _usual(card.key, figure, alone)
+    goal = float(convert(wanted, figure)) if wanted.strip() else usual(card.key, figure, alone)
     low, high = bracket(alone, name, setting, figure, goal)
     target = Target(f"{name}.{setting.name}", f"{name}.{figure.name}", goal, low, high)
     found = replace(alone, targets=(target,)).solve()
@@ -80,8 +81,10 @@ def resized(run: Run, name: str, wanted: str = "") -> Resized:
     return Resized(setting, float(getattr(unit, setting.name)), value, figure, goal, doubts(found))
 
 
-def _usual(key: str, figure: Parameter, here: Line) -> float:
-    """The figure of a machine as it opens alone."""
+def usual(key: str, figure: Parameter, here: Line) -> float:
+    """The figure of a machine as it opens alone; of one that is used by a share of its capacity ``FULL``."""
+    if figure.name == CAPACITY:
+        return FULL
     example = read_text(case_text(key, {}), name=key).solve()
     (report,) = example.units.values()
     value = float(next(value for p, value in report.figures() if p.name == figure.name))

@@ -18,6 +18,8 @@ from granum.core.errors import GranumError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
+from granum.core.units import from_si
+from granum.core.written import read_number
 from granum.reports.quantities import value_text
 
 # the power of the flow with which they grow: areas and contents in proportion, what a stream flows through
@@ -58,6 +60,7 @@ BY_SHAPE = frozenset(("drying.rotary_dryer",))
 """What keeps its shape and the speed of its shell: as long, in diameters, as the example."""
 FAR = (0.5, 2.0)  # times within which a line as a whole is taken to be as large as the example
 OFF = (0.9, 1.1)  # and a stream that is known
+EVAPORATES = "evaporation."  # the domain of what drives out solvent
 EVAPORATED = (0.9, 2.0)  # what is left must be left
 # kg/m³, of a flow that is said as a volume
 DENSITIES = {"mass_flow": WATER, "solid_flow": WATER, "liquid_flow": WATER, "gas_flow": 1.2}
@@ -76,7 +79,7 @@ def scale_of(model: str, found: Outline, origin: str = "", brings: Mapping[str, 
     that is a feed or ``brings`` says its ``mass_flow`` and its ``solvent``, else the line as a whole.
     """
     example = tables(model)
-    evaporates = model.startswith("evaporation.")  # the solvent is driven out, and some must be left
+    evaporates = model.startswith(EVAPORATES)  # the solvent is driven out, and some must be left
     told = "solvent" if evaporates else "mass_flow"
     measured = _solvent if evaporates else entering
     feeds = table_of(found.raw, "feeds")
@@ -109,7 +112,7 @@ def _scale(here: float, alone: float, known: bool) -> Scale:
 
 def scaled(model: str, made: Mapping[str, Any], scale: Scale) -> dict[str, Any]:
     """Sizes in proportion, of those that a piece of equipment starts from."""
-    near = EVAPORATED if model.startswith("evaporation.") else OFF if scale.known else FAR
+    near = EVAPORATED if model.startswith(EVAPORATES) else OFF if scale.known else FAR
     if near[0] < scale.times < near[1]:
         return {}
     return {p.name: _grown(p, made[p.name], scale.times) for p in _sizes(model) if p.name in made}
@@ -130,8 +133,11 @@ def _grown(p: Parameter, value: Any, times: float) -> Any:
     size = times ** POWERS[p.name] * float(convert(value, p))
     if p.name.endswith("_number"):
         return max(ceil(size - 1e-9), 1)
-    unit = "" if p.kind is None else p.kind.unit
-    return f"{float(f'{size:.2g}'):.10g} {unit}"
+    if p.kind is None:
+        return size
+    typed = read_number(value) if isinstance(value, str) else None
+    unit = typed[1] if typed is not None and typed[1] else p.kind.unit  # as somebody wrote it
+    return f"{float(f'{float(from_si(size, unit, p.kind)):.2g}'):.10g} {unit}"
 
 
 def size_told(model: str, made: Mapping[str, Any], scale: Scale) -> str:
@@ -143,9 +149,10 @@ def size_told(model: str, made: Mapping[str, Any], scale: Scale) -> str:
     values = [
         f"{p.label} = {value_text(convert(sizes[p.name], p), p)}" for p in _sizes(model) if p.name in sizes
     ]
-    return _("Sized for {flow}, in proportion to its example: {values}.").format(
-        flow=value_text(scale.flow, flow), values=", ".join(values)
-    )
+    told = _("Sized for {flow}, in proportion to its example: {values}.")
+    if model.startswith(EVAPORATES):
+        told = _("Sized for {flow} of solvent that enters, in proportion to its example: {values}.")
+    return told.format(flow=value_text(scale.flow, flow), values=", ".join(values))
 
 
 def entering(raw: Mapping[str, Any], feeds: list[str], gas: bool = False) -> float:

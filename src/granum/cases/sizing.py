@@ -6,7 +6,7 @@ The file ``sizes.toml`` says which setting is sought for which figure, or why a 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from importlib.resources import files
 from math import ceil, floor
@@ -194,8 +194,7 @@ def bracket(line: Line, name: str, p: Parameter, figure: Parameter, wanted: floa
             _("Give '{name}' a value from which the search begins.").format(name=p.name), name=p.name
         )
     x = _looked_at(p, float(start))
-    y = _told(line, name, p.name, figure.name, x)
-    x, y = x[np.isfinite(y)], y[np.isfinite(y)]
+    x, y = _reached(_looking(line, name, p.name, figure.name), x, wanted)
     if not x.size or not np.ptp(y) > SAME * np.abs(y).max():
         raise ApplicabilityError(
             _("{output} does not depend on {name} here.").format(output=figure.label, name=p.label)
@@ -225,6 +224,26 @@ def bracket(line: Line, name: str, p: Parameter, figure: Parameter, wanted: floa
     return float(x[i]), float(x[j])
 
 
+def _reached(
+    look: Callable[[np.ndarray], np.ndarray], x: np.ndarray, wanted: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The settings that have an answer, with it. Where the value wanted is not among these, the gaps to those
+    that have none are looked at more closely: an evaporator still works shortly before it would run dry.
+    """
+    y = look(x)
+    answers = np.isfinite(y)
+    edges = np.flatnonzero(answers[:-1] != answers[1:])
+    if edges.size and answers.any() and not y[answers].min() <= wanted <= y[answers].max():
+        share = np.linspace(0.0, 1.0, x.size // edges.size + 2)[1:-1]
+        between = np.concatenate([x[i] + (x[i + 1] - x[i]) * share for i in edges])
+        # as many as before, so that nothing is compiled again
+        more = look(np.concatenate([between, x[between.size :]]))[: between.size]
+        x, y = np.concatenate([x, between]), np.concatenate([y, more])
+        order = np.argsort(x)
+        x, y = x[order], y[order]
+    return x[np.isfinite(y)], y[np.isfinite(y)]
+
+
 def _looked_at(p: Parameter, start: float) -> np.ndarray:
     assert p.kind is not None  # as what is sought
     x = start * np.geomspace(1.0 / FAR, FAR, PLACES)
@@ -233,8 +252,10 @@ def _looked_at(p: Parameter, start: float) -> np.ndarray:
     return np.unique([*x[(x > p.kind.lower) & (x < p.kind.upper)], *closed])
 
 
-def _told(line: Line, name: str, setting: str, figure: str, x: np.ndarray) -> np.ndarray:
-    """A figure of the unit at each setting, in one pass; not a number where the unit has no answer."""
+def _looking(line: Line, name: str, setting: str, figure: str) -> Callable[[np.ndarray], np.ndarray]:
+    """A figure of the unit at each of several settings, in one pass; not a number where the unit has no
+    answer.
+    """
     feeds = {
         link.target.partition(".")[2]: line.sheet.feeds[link.name]
         for link in line.sheet.links
@@ -248,4 +269,5 @@ def _told(line: Line, name: str, setting: str, figure: str, x: np.ndarray) -> np
         value = jnp.asarray(getattr(found.figures, figure), dtype=float)
         return jnp.where(unanswered(found.records), jnp.nan, value)
 
-    return np.asarray(jax.jit(jax.vmap(one))(jnp.asarray(x)))
+    look = jax.jit(jax.vmap(one))
+    return lambda x: np.asarray(look(jnp.asarray(x)))

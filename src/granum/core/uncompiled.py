@@ -45,9 +45,10 @@ THOROUGH = 2
 """Optimization asked of the compiler for a loop of arrays, whatever is asked for the rest: one of thirty
 cells with thirty size classes is ready half as late again and runs four times as fast.
 """
-WIDE = 100
+WIDE = 1000
 """Elements of the largest array that a loop carries along from which on that is so; one of few numbers runs
-as fast however it is compiled.
+as fast however it is compiled: of a cell with forty size classes, 360, a fifth slower, and is ready in two
+thirds of the time.
 """
 
 _taken = threading.local()

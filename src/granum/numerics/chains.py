@@ -209,6 +209,13 @@ def factor_chain(blocks: Blocks) -> Factors:
     return Factors(blocks.before, inverse, answer, blocks.part_before, blocks.part, blocks.low, closed, upper)
 
 
+def _no_factors(like: Cells) -> Factors:
+    """Zeros in the shapes of the factors of a chain, without tracing it for them."""
+    (n, m, a), g = like.lanes.shape, like.shared.shape[1]
+    lanes, given, taken, shared = (n, m, a, a), (n, m, a, g), (n, m, g, a), (n, g, g)
+    return Factors(*map(jnp.zeros, (lanes, lanes, given, taken, taken, shared, shared, shared)))
+
+
 def solve_factored(factors: Factors, right: Cells) -> Cells:
     """Solution of the factored system."""
 
@@ -408,10 +415,7 @@ def solve_chain(
             none,
             1e4 * LATE * first_step,
             jnp.asarray(TRUST),
-            jax.tree.map(
-                lambda v: jnp.zeros(v.shape),
-                jax.eval_shape(lambda u: factored(jax.linearize(f, u)[1], u, 1.0), origin),
-            ),
+            _no_factors(origin),
         )
         found = lax.while_loop(unfinished, step, first)
         u, left, number = found[0], found[5], found[8]

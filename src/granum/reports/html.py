@@ -239,7 +239,7 @@ def line_report(run: Any) -> str:
         units=units,
         checks=sum(len(u["checks"]) for u in units),
         failed=[
-            (u["name"], f"{c['name']}: {c['text']} ({c['allowed']})")
+            (u["name"], f"{c['name']}{_(': ')}{c['text']} ({c['allowed']})")
             for u in units
             for c in u["checks"]
             if not c["ok"]

@@ -348,7 +348,11 @@ class CheckRow(NamedTuple):
 
 
 def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> CheckRow:
-    """A check as people read it; in the unit of the figure it looks at, where it is one of ``figures``."""
+    """A check as people read it; in the unit of the figure it looks at, where it is one of ``figures``. One
+    that holds or not, measured as 1 or 0, is told as yes or no.
+    """
+    if check.low == check.high == 1.0 and check.unit == "dimensionless" and float(check.value) in (0.0, 1.0):
+        return CheckRow(_(check.name), check.ok, _("yes") if check.ok else _("no"), f"= {_('yes')}")
     value, low, high = (
         float(check.value),
         _ruled(float(check.low), check.unit),

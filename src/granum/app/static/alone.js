@@ -19,6 +19,7 @@ import { CALCULATED, Calculate, Seek, seekable, useSeek } from './calculate.js';
 import { Finder, useCards } from './cards.js';
 import { Field } from './form.js';
 import { keepDraft, packed } from './drafts.js';
+import { Advice } from './line_outcome.js';
 import { StreamTable } from './line_streams.js';
 import { Plot } from './plot.js';
 import { Sensitivity } from './sensitivity.js';
@@ -161,8 +162,9 @@ function Outcome({ data, form, text, children }) {
   const failed = unit.checks.filter((c) => !c.ok);
   return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Results')}><table class="answers"><tbody>${Object.entries(unit.results).map(([name, row]) => html`<tr><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n" data-figure=${name}><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>
     <div class=${failed.length || data.flags.length ? 'caution' : 'ok'} data-belief=${failed.length || data.flags.length ? 'caution' : 'ok'}>${data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`)}${failed.map((c) => html`<p class="mark">▲ ${c.name}${colon()} ${c.text} (${c.allowed})</p>`)}
+      ${Object.entries(data.advice ?? {}).map(([name, one]) => html`<${Advice} key=${name} name=${name} advice=${one} />`)}
       ${!failed.length && !data.flags.length && html`<p class="mark">● ${t('within its practical limits')}</p>`}</div>
-    ${unit.checks.length > 0 && html`<details open><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${unit.checks.map((c) => html`<tr class=${c.ok ? '' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.text}</td><td class="dim allowed">${c.allowed}</td></tr>`)}</tbody></table></div></details>`}
+    ${unit.checks.length > 0 && html`<details open><summary>${t('Practical limits')}</summary><div class="wide small limits"><table><tbody>${unit.checks.map((c) => html`<tr class=${c.ok ? '' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.text}</td><td class="dim allowed">${c.allowed}</td></tr>`)}</tbody></table></div></details>`}
     ${children}
     <${StreamTable} turned table=${data.stream_table} text=${text} labels=${ports(data.stream_table.rows, form?.ports)} />
     <${Utilities} table=${data.utility_table} />

@@ -51,7 +51,7 @@ export function NewLine({ make, cancel }) {
     e.preventDefault();
     make({ ...values, title: values.title.trim() || suggestion });
   }}><h2 class="first">${t('New line')}</h2>
-    <label class="end" for="new-title"><span>${t('title')}</span><input id="new-title" type="text" value=${values.title} placeholder=${suggestion} onInput=${(e) => set('title')(e.target.value)} /></label>
+    <label class="end" for="new-title"><span>${t('title')}</span><input id="new-title" type="text" value=${values.title} placeholder=${known ? suggestion : ''} onInput=${(e) => set('title')(e.target.value)} /></label>
     <fieldset><legend>${t('What enters')}</legend>${BEGINNINGS.map(([name, label]) => html`<label class="choice line"><input type="radio" name="enters" value=${name} checked=${values.enters === name} onChange=${() => set('enters')(name)} /> ${t(label)}</label>`)}</fieldset>
     ${rows && asked.map((name) => html`<${Choice} key=${name} id=${'new-' + name} label=${labels[name]} rows=${rows[name]} value=${values[name]} pick=${set(name)} />`)}
     ${known && html`<${Describe} key=${values.enters} id="new-own" known=${known} solvent=${values.liquid} first=${values.enters === 'solution' ? 'solutes' : 'solids'} describe=${describe} />`}

@@ -1,5 +1,5 @@
 // What a solved line gives: findings first, then streams, then every figure of the equipment; cases side by side.
-import { colon, html, t } from './core.js';
+import { colon, html, link, t } from './core.js';
 import { StreamTable } from './line_streams.js';
 import { pretty } from './line_forms.js';
 import { Sankey } from './sankey.js';
@@ -17,6 +17,7 @@ export function Outcome({ data, cases, clear, choose, place, text, compared, lab
   return html`<p class="ok">● ${data.audit.text}</p>
     <section class="card findings" aria-label=${t('Findings')}><h2 class="first">${t('Findings')}</h2>
     ${failed.map(([name, c]) => html`<p class="out">✗ <strong>${pretty(name)}</strong>${colon()} ${c.name} ${c.text} <span class="dim">(${c.allowed})</span></p>`)}
+    ${Object.entries(data.advice ?? {}).map(([name, one]) => html`<${Advice} key=${name} name=${name} advice=${one} />`)}
     ${kept > 0 && html`<p class="ok">✓ ${failed.length ? (kept === 1 ? t('One other limit is kept.') : t('{count} other limits are kept.', { count: kept })) : t('All {count} practical limits are kept.', { count: kept })}</p>`}
     ${data.found.map((row) => html`<p>${t('found')}${colon()} <strong>${pretty(row.unit)}</strong>, ${row.label} = ${row.text}</p>`)}
     ${found.length > 0 && html`<div class="wide" tabindex="0" role="region" aria-label=${t('Sizes and duties')}><table><tbody>${found.map(([name, key, row], i) => html`<tr data-finding=${name + '.' + key}><th scope="row">${i && found[i - 1][0] === name ? '' : pretty(name)}</th><td>${row.label}</td><td class="n"><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>`}
@@ -26,6 +27,11 @@ export function Outcome({ data, cases, clear, choose, place, text, compared, lab
     <${Utilities} table=${data.utility_table} prices=${prices} build=${build} />
     <${Sankey} diagrams=${data.sankey} />
     <h2>${t('Equipment')}</h2>${units.map(([name, unit]) => html`<details key=${name} data-sheet=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${unit.title || unit.model}</span>${unit.checks.some((c) => !c.ok) && html` <span class="out">✗</span>`}</summary><${UnitFigures} name=${name} unit=${unit} cases=${cases} /></details>`)}`;
+}
+
+/** Which machines suit better than one that fails its checks, and the ranked list of them for the same stream. */
+export function Advice({ name, advice }) {
+  return html`<p data-advice=${name}>→ ${advice.told} <a href=${link('calculate', advice.card, advice.inputs)}>${t('Compare all')}</a></p>`;
 }
 
 export function UnitFigures({ name, unit, cases }) {

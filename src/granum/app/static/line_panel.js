@@ -47,7 +47,7 @@ function Size({ duty, ready, size }) {
   return html`<form class="row size" data-size onSubmit=${(e) => {
     e.preventDefault();
     if (ready) size(wanted);
-  }}><button class="button" disabled=${!ready} title=${ready ? '' : t('The line must be solved first.')}>${t('Size it for what enters')}</button><label class="small">${t('{setting}, so that {figure} is', duty)} <input type="text" autocomplete="off" spellcheck="false" placeholder=${t('as in its example')} value=${wanted} onInput=${(e) => setWanted(e.target.value)} /></label></form>`;
+  }}><button class="button" disabled=${!ready} title=${ready ? '' : t('The line must be solved first.')}>${t('Size it for what enters')}</button><label class="small">${t('{setting}, so that {figure} is', duty)} <input type="text" autocomplete="off" spellcheck="false" placeholder=${duty.usual || t('as in its example')} value=${wanted} onInput=${(e) => setWanted(e.target.value)} /></label></form>`;
 }
 
 function Rename({ name, rename }) {

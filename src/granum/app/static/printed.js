@@ -10,6 +10,9 @@ ask('/api/version').then((found) => {
 const heading = () =>
   document.querySelector('main h2.title')?.textContent || document.querySelector('main h1')?.textContent || '';
 
+/** The address to type again: that of a line without the whole case in it, which nobody types. */
+const address = () => location.href.replace(/[?&]case=[^&]*/, '');
+
 function Printed() {
   const [, again] = useState(0);
   useEffect(() => {
@@ -30,7 +33,7 @@ function Printed() {
     };
   }, []);
   const when = new Intl.DateTimeFormat(settings.language, { dateStyle: 'long', timeStyle: 'short' });
-  return html`<p class="printed">Granum ${version} · ${heading()} · ${when.format(Date.now())}<br />${t('The same page again:')} ${location.href}</p>`;
+  return html`<p class="printed">Granum ${version} · ${heading()} · ${when.format(Date.now())}<br />${t('The same page again:')} ${address()}</p>`;
 }
 
 const foot = document.createElement('footer');

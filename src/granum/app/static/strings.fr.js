@@ -28,6 +28,7 @@ export const french = {
   'Search cards': 'Chercher une fiche',
   'Search {count} cards…': 'Parmi {count} fiches…',
   'Nothing found.': 'Rien trouvé.',
+  'Compare all': 'Tout comparer',
   'The list of cards is on its way…': 'La liste des fiches arrive…',
   'Equipment – {count}': 'Équipements – {count}',
   '{family} – {count} laws': '{family} – {count} lois',

@@ -205,7 +205,7 @@ class BatchVessel(Unit):
         "highest": Limit("highest relative supersaturation", 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
         "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
         "present": Limit(
-            "crystals, or a liquor that needs none (1 when so)",
+            "crystals, or a liquor that needs none",
             1.0,
             1.0,
             "dimensionless",

@@ -124,7 +124,13 @@ class VacuumFigures(NamedTuple):
 STEADY: Limits = {
     "crowded": Limit("solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
     "time": Limit("residence time", 600.0, 36000.0, "s", "mullin2001, ch. 9"),
-    "present": Limit("steady crystals (1 when present)", 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"),
+    "present": Limit(
+        "crystals form, from a supersaturated liquor",
+        1.0,
+        1.0,
+        "dimensionless",
+        "randolph1988, ch. 4",
+    ),
     "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
 }
 
