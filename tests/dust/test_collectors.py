@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import granum as gr
-from granum.core.errors import GranumError, InputError
+from granum.core.errors import ConvergenceError, GranumError, InputError
 from granum.dust.equipment.bag_filter import BagFilter
 from granum.dust.equipment.mesh_pad import MeshPad
 from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
@@ -177,7 +177,9 @@ def test_random_settings_close(name: str, mixture) -> None:
     assert float(mass.max()) <= CLOSURE
     assert float(energy.max()) <= CLOSURE
     assert float(lowest.min()) >= LEAST
-    assert not lost.any()
+    spent = np.asarray(numbers)[:, 3] > 0.7 * 101325.0 if name == "venturi" else np.zeros(len(rows), dtype=bool)
+    np.testing.assert_array_equal(lost, spent)  # narrow throats, and these alone, have no solution
+    assert spent.mean() <= 0.1
     assert figures.all()
     assert np.isfinite(np.asarray(numbers)).all()
 
@@ -221,6 +223,23 @@ def test_emission_above_its_limit_is_told() -> None:
     check = {c.name: c for c in made.checks}["emission of dust over its limit"]
     assert not check.ok
     assert float(check.value) == pytest.approx(float(made.figures.emission_concentration) / 20e-6)
+
+
+def test_no_machine_takes_more_of_the_pressure_than_there_is() -> None:
+    """A throat of 0.02 m² at 20 t/h had asked for more than one atmosphere and let the gas go at 1 Pa and
+    −16 °C; as little of a bag filter is cloth enough.
+    """
+    feed, water = dusty(AIR), empty(AIR, 298.15).replace(liquid=jnp.asarray([6.0]))
+    throat = alone(VenturiScrubber(0.06), feed=feed, water=water)
+    spent = throat.figure("u.pressure_drop")
+    assert float(feed.pressure - throat.streams["u.gas"].pressure) == pytest.approx(spent, rel=1e-9)
+    # ρ v² L/G and v as 1/area: at 70 % of the pressure there is an end
+    last = 0.06 * (spent / (0.7 * float(feed.pressure))) ** 0.5
+    assert alone(VenturiScrubber(1.001 * last), feed=feed, water=water).figure("u.pressure_drop") > spent
+    with pytest.raises(ConvergenceError, match="more than 70 % of its pressure.*larger section"):
+        alone(VenturiScrubber(0.999 * last), feed=feed, water=water)
+    with pytest.raises(ConvergenceError, match="more than 70 % of its pressure"):
+        alone(BagFilter(0.5), feed=feed)
 
 
 def test_a_hot_gas_is_cooled_to_saturation_by_the_scrubber() -> None:
