@@ -141,7 +141,7 @@ def grade_efficiency_deutsch(migration_velocity: Speed, area: Area, volume_flow:
 
 @formula(
     source="matts1964",
-    equation=r"E = 1 - \exp\left[-\left(\frac{w_k A}{Q}\right)^k\right]",
+    equation=r"E = 1 - \exp\left[-\left(\frac{w A}{Q}\right)^k\right]",
     fitted={"migration_exponent": (0.4, 1.0)},
     typical={
         "migration_velocity": (0.1, 0.6),
