@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+import granum as gr
 from granum.core.errors import InputError
 from granum.drying.equipment.paper import PaperMachine
 from granum.drying.isotherms.paper import Heikkila
@@ -57,6 +58,24 @@ def test_tappi_counts_the_whole_circumference() -> None:
     figures, _heat = made()
     area = np.pi * 1.5 * 40 * 5.0
     assert float(figures.evaporation_per_area) == pytest.approx(float(figures.evaporation_rate) / area)
+
+
+def test_drives_pull_what_tappi_says() -> None:
+    """P = n NRL l v of a drive maker's page: 0.0047 hp per inch and 100 ft/min, 40 cylinders, 200 in and
+    3000 ft/min make 1128 hp. The default is a paper's 276 hp for six cylinders and 17 felt rolls of 4.8 hp,
+    each of which takes 0.16 lbf/in of tension.
+    """
+    hp, inch, foot = 745.7, 0.0254, 0.3048
+    load = 0.0047 * hp / (inch * 100.0 * foot / 60.0)
+    power = gr.drying.shaft_power_cylinders(40, load, 200.0 * inch, 3000.0 * foot / 60.0)
+    assert power / hp == pytest.approx(0.0047 * 40 * 200.0 * 30.0, rel=1e-9)
+    width_by_speed = 4.8 * hp / (0.16 * 4.44822 / inch)
+    machine, _heat = made()
+    assert PaperMachine.running_load == pytest.approx(276.0 / 6.0 * hp / width_by_speed, rel=0.01)
+    turned = 40 * PaperMachine.running_load * 5.0 * float(machine.web_speed)
+    assert float(machine.shaft_power) == pytest.approx(turned, rel=1e-9)
+    faster, _heat = made(width=2.5)  # half as wide, twice as fast: the same paper by the same work
+    assert float(faster.shaft_power) == pytest.approx(turned, rel=1e-9)
 
 
 def test_heat_of_cylinders_and_hood_is_what_leaves() -> None:

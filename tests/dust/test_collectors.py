@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import granum as gr
-from granum.core.errors import GranumError, InputError
+from granum.core.errors import ConvergenceError, GranumError, InputError
 from granum.dust.equipment.bag_filter import BagFilter
 from granum.dust.equipment.mesh_pad import MeshPad
 from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
@@ -90,6 +90,33 @@ def test_field_charge_goes_to_the_limit_of_pauthenier() -> None:
     assert gr.dust.elementary_charges_field(1e-6, 4e5, 5.0, 1e20) == pytest.approx(most, rel=1e-6)
     made = ElectrostaticPrecipitator(500.0, 4.0).operate(feed=dusty(AIR))
     assert 1e-7 <= float(made.figures.size_slowest) <= 1e-6
+
+
+def test_contacting_power_of_a_handbook() -> None:
+    """The factors of a handbook that was read, 0.157 per inch of water and 0.583 psi gal/ft³, for 5 in and
+    80 psi at 50 gal per 10 000 ft³; by hand 1.018 hp per 1000 ft³/min, and as many transfer units.
+    """
+    power = gr.dust.contacting_power(5.0 * INCH, 50.0 / 10.0 * GALLONS, "80 psi")
+    horsepower = 745.7 / (1000.0 * FOOT**3 / 60.0)
+    assert power / horsepower == pytest.approx(0.157 * 5.0 + 0.583 * 80.0 * 50.0 / 1e4, rel=5e-3)
+    for coefficient, exponent in ((1.35, 0.62), (1.47, 1.05)):
+        caught = gr.dust.removal_efficiency_semrau(horsepower, coefficient, exponent)
+        assert caught == pytest.approx(1.0 - np.exp(-coefficient), rel=1e-5)
+        twice = gr.dust.removal_efficiency_semrau(2.0 * horsepower, coefficient, exponent)
+        units = np.log(1.0 - twice) / np.log(1.0 - caught)
+        assert units == pytest.approx(2.0**exponent, rel=1e-5)
+
+
+def test_plates_of_matts_and_ohnfeldt() -> None:
+    """With the exponent 1 it is Deutsch's law; with 0.5 each halving of what is left takes ever more plates:
+    by hand, from 90 to 99 % four times the plates in place of twice.
+    """
+    for area in (10.0, 50.0, 200.0):
+        one = gr.dust.removal_efficiency_matts_ohnfeldt(0.05, area, 1.0, migration_exponent=1.0)
+        assert one == pytest.approx(gr.dust.grade_efficiency_deutsch(0.05, area, 1.0), rel=1e-12)
+    plates = np.log(10.0) ** 2 / 0.2
+    assert gr.dust.removal_efficiency_matts_ohnfeldt(0.2, plates, 1.0) == pytest.approx(0.9, rel=1e-9)
+    assert gr.dust.removal_efficiency_matts_ohnfeldt(0.2, 4.0 * plates, 1.0) == pytest.approx(0.99, rel=1e-9)
 
 
 def test_rain_counted_drop_by_drop() -> None:
@@ -177,7 +204,11 @@ def test_random_settings_close(name: str, mixture) -> None:
     assert float(mass.max()) <= CLOSURE
     assert float(energy.max()) <= CLOSURE
     assert float(lowest.min()) >= LEAST
-    assert not lost.any()
+    spent = (
+        np.asarray(numbers)[:, 3] > 0.7 * 101325.0 if name == "venturi" else np.zeros(len(rows), dtype=bool)
+    )
+    np.testing.assert_array_equal(lost, spent)  # narrow throats, and these alone, have no solution
+    assert spent.mean() <= 0.1
     assert figures.all()
     assert np.isfinite(np.asarray(numbers)).all()
 
@@ -221,6 +252,23 @@ def test_emission_above_its_limit_is_told() -> None:
     check = {c.name: c for c in made.checks}["emission of dust over its limit"]
     assert not check.ok
     assert float(check.value) == pytest.approx(float(made.figures.emission_concentration) / 20e-6)
+
+
+def test_no_machine_takes_more_of_the_pressure_than_there_is() -> None:
+    """A throat of 0.02 m² at 20 t/h had asked for more than one atmosphere and let the gas go at 1 Pa and
+    −16 °C; as little of a bag filter is cloth enough.
+    """
+    feed, water = dusty(AIR), empty(AIR, 298.15).replace(liquid=jnp.asarray([6.0]))
+    throat = alone(VenturiScrubber(0.06), feed=feed, water=water)
+    spent = throat.figure("u.pressure_drop")
+    assert float(feed.pressure - throat.streams["u.gas"].pressure) == pytest.approx(spent, rel=1e-9)
+    # ρ v² L/G and v as 1/area: at 70 % of the pressure there is an end
+    last = 0.06 * (spent / (0.7 * float(feed.pressure))) ** 0.5
+    assert alone(VenturiScrubber(1.001 * last), feed=feed, water=water).figure("u.pressure_drop") > spent
+    with pytest.raises(ConvergenceError, match=r"more than 70 % of its pressure.*larger section"):
+        alone(VenturiScrubber(0.999 * last), feed=feed, water=water)
+    with pytest.raises(ConvergenceError, match=r"more than 70 % of its pressure"):
+        alone(BagFilter(0.5), feed=feed)
 
 
 def test_a_hot_gas_is_cooled_to_saturation_by_the_scrubber() -> None:

@@ -26,8 +26,11 @@ from granum.core.documents import table_in
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.stand_ins import stands_for
+from granum.core.words import plain
 from granum.flowsheet.run import Line
 from granum.streams.feeding import PHASES
+
+FIELDS = [name for name in FeedTable.model_fields if name != "to"]
 
 
 @cache
@@ -122,7 +125,8 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
     elif dot and (head in feeds or head in (thing.inlet_names() or (head,))):
         field = rest.partition(".")[0]
         if field not in FeedTable.model_fields:
-            raise unknown_name(_("Input"), word, [f"{head}.{n}" for n in FeedTable.model_fields], _for(thing))
+            there = [f"{head}.{n}" for n in FIELDS]
+            raise unknown_name(_("Input"), word, there, _for(thing), strict=True)
         feed = feeds.setdefault(head, {})
         for these, others, said in ((BY_TOTAL, BY_PHASE, in_totals), (BY_PHASE, BY_TOTAL, in_phases)):
             if field in these and value != "" and any(other in feed for other in others):
@@ -135,10 +139,26 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
             feed.pop(rest, None)
         else:
             put(feed, rest, value)
+    elif dot and rest.partition(".")[0] in FIELDS:
+        raise InputError(
+            _("Nothing enters {owner} by '{port}'. Known names: {names}.").format(
+                owner=thing.card.key, port=head, names=", ".join(f"{port}.{rest}" for port in feeds)
+            ),
+            name=word,
+        )
     else:
         known = [p.name for p in thing.card.parameters]
-        known += [f"{port}.{name}" for port in feeds for name in FeedTable.model_fields if name != "to"]
-        raise unknown_name(_("Input"), word, known, _for(thing))
+        known += [f"{port}.{name}" for port in feeds for name in FIELDS]
+        raise unknown_name(_("Input"), word, known, _for(thing), meant=_called(thing, word))
+
+
+def _called(thing: Any, word: str) -> str | None:
+    """The parameter that the glossary calls so, in either language."""
+    said = plain(word.replace("_", " "))
+    for p in thing.card.parameters:
+        if p.term is not None and said in map(plain, (p.term.en, p.term.fr, *p.term.also)):
+            return p.name
+    return None
 
 
 def _for(thing: Any) -> str:

@@ -289,6 +289,7 @@ from granum.drying.formulas.moisture_ratios import (
 from granum.drying.formulas.paper import (
     evaporation_per_area_tappi as evaporation_per_area_tappi,
     heat_transfer_coefficient_paper as heat_transfer_coefficient_paper,
+    shaft_power_cylinders as shaft_power_cylinders,
 )
 from granum.drying.formulas.rotary import (
     residence_time_friedman_marshall as residence_time_friedman_marshall,

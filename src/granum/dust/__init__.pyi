@@ -77,8 +77,10 @@ from granum.dust.formulas.precipitation import (
     elementary_charges_field as elementary_charges_field,
     grade_efficiency_deutsch as grade_efficiency_deutsch,
     migration_velocity as migration_velocity,
+    removal_efficiency_matts_ohnfeldt as removal_efficiency_matts_ohnfeldt,
 )
 from granum.dust.formulas.scrubbers import (
+    contacting_power as contacting_power,
     droplet_diameter_venturi as droplet_diameter_venturi,
     grade_efficiency_johnstone as grade_efficiency_johnstone,
     grade_efficiency_mesh as grade_efficiency_mesh,
@@ -86,6 +88,7 @@ from granum.dust.formulas.scrubbers import (
     grade_efficiency_spray_tower as grade_efficiency_spray_tower,
     impaction_number as impaction_number,
     pressure_drop_venturi as pressure_drop_venturi,
+    removal_efficiency_semrau as removal_efficiency_semrau,
     target_efficiency_drop as target_efficiency_drop,
     target_efficiency_wire as target_efficiency_wire,
 )

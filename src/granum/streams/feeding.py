@@ -260,20 +260,24 @@ def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
     cumulative = np.asarray(once(partial(_below, sizes), edges))
     below, above = float(cumulative[0]), float(1.0 - cumulative[-1])
     if not below + above <= 1.0 - LEAST_INSIDE:
-        raise InputError(
-            _(
-                "{where}: {below} % of the feed is finer than the size classes, which begin at {low}, and "
-                "{above} % coarser than {high}, where they end. Give another 'smallest' or 'largest' in "
-                "[mixture.sizes], or other 'boundaries'."
-            ).format(
-                where=where,
-                below=format_number(100 * below, 3),
-                above=format_number(100 * above, 3),
-                low=show(float(edges[0]), KINDS["Length"]),
-                high=show(float(edges[-1]), KINDS["Length"]),
-            )
-        )
+        raise InputError(_outside(where, edges, below, above))
     return np.asarray(once(partial(_in_classes, sizes), edges))
+
+
+def _outside(where: str, edges: Any, below: float, above: float) -> str:
+    """Which share of the sizes no class takes; a side with less than 10⁻⁴ of it is not told."""
+    sides = {
+        _("{share} % of the feed is finer than {edge}, where the size classes begin"): (below, edges[0]),
+        _("{share} % of the feed is coarser than {edge}, where the size classes end"): (above, edges[-1]),
+    }
+    told = [
+        side.format(share=format_number(100 * share, 3), edge=show(float(edge), KINDS["Length"]))
+        for side, (share, edge) in sides.items()
+        if share > 1e-4 * (below + above)
+    ]
+    return _(
+        "{where}: {sides}. Give another 'smallest' or 'largest' in [mixture.sizes], or other 'boundaries'."
+    ).format(where=where, sides="; ".join(told))
 
 
 def _below(law: Any, edges: Any) -> Any:

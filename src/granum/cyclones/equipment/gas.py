@@ -33,6 +33,7 @@ from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.materials.library import Library
 from granum.numerics.smooth import safe_divide
 from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vented
+from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import FANNED, fanned
@@ -165,7 +166,7 @@ class GasCyclone(Unit):
         dust = feed.part(solid=share, liquid=total)
         gas = feed.replace(solid=feed.solid - dust.solid, liquid=feed.liquid - dust.liquid)
         return CycloneOutlets(
-            gas.replace(pressure=jnp.maximum(feed.pressure - inside.pressure_drop, 1.0)), dust
+            gas.replace(pressure=pressure_left(feed, inside.pressure_drop, type(self).card)), dust
         )
 
     def figures(self, inside: Swirl, outlets: CycloneOutlets, feed: Stream) -> CycloneFigures:

@@ -152,6 +152,7 @@ class TrayDryer(Unit):
         ),
         "recycle": Limit("recirculated share of the air", 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
+        "energy": Limit("energy per water evaporated", 2.4e6, 9e6, "J/kg", "mujumdar2014, ch. 1"),
     } | (FLAMMABLE | AS_SPECIFIED)
 
     utilities: ClassVar[Utilities] = HEATED | HOT_GAS | AREA | {"electric_power_fan": Utility(HEADS)}
@@ -296,6 +297,8 @@ class TrayDryer(Unit):
             "reached": self.moisture_outlet - inside["Xe"],
             "recycle": figures.recirculated_fraction,
         } | (flammable(outlets.exhaust) | as_specified(feed, self.moisture_outlet))
+        if HumidMixture(gas.mixture).solvent == "water":
+            found["energy"] = figures.energy_per_water
         if self.temperature_limit is not None:
             found["hot"] = self.temperature_inlet - self.temperature_limit
         return found

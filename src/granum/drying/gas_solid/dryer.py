@@ -52,6 +52,7 @@ UNSOLVED = (
     "or heat transfer coefficient, help too."
 )
 ALL_DRY = 1e-4  # kg/kg
+ROUNDING = 1e-7  # of the water that comes, to which profiles are exact
 NOTHING_TO_DRY = (
     "The steady state of the dryer was not found: its figures are no result. Its feed is all but dry and "
     "takes the vapor out of the gas at once: give the feed the moisture it has in ambient air, or leave the "
@@ -341,11 +342,11 @@ def parted(feed: Stream, dissolved: Any, gas: Stream, found: Profile) -> Dried:
     """The same for a feed already ``counted``."""
     humid = HumidMixture(feed.mixture)
     stray_feed, stray_gas = feed.part(gas=1.0), gas.part(solid=1.0, liquid=1.0)
-    product = moistened(feed, jnp.sum(found.water), dissolved).replace(
-        gas=0.0 * feed.gas, pressure=gas.pressure
-    )
+    water = jnp.sum(found.water)
+    owed = jnp.clip(water, -ROUNDING * feed.liquid[0], 0.0)  # less than nothing is left where all of it goes
+    product = moistened(feed, water - owed, dissolved).replace(gas=0.0 * feed.gas, pressure=gas.pressure)
     exhaust = gas.replace(
-        gas=humid.carrying(gas).at[humid.vapor].add(found.vapor) + stray_feed.gas,
+        gas=humid.carrying(gas).at[humid.vapor].add(found.vapor + owed) + stray_feed.gas,
         solid=stray_gas.solid,
         liquid=stray_gas.liquid,
     )

@@ -28,6 +28,7 @@ from granum.filtration.formulas.gas_filters import penetration_fibers, pressure_
 from granum.filtration.kinds import DustResistance
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.slip import knudsen_number, mean_free_path, slip_factor_allen_raabe
+from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, fanned
@@ -168,8 +169,8 @@ class AirFilter(Collector):
     def outlets(self, inside: Fibered, feed: Stream) -> Cleaned:
         dust = feed.part(solid=over_axes(inside.share, feed), liquid=inside.mist)
         gas = feed.replace(solid=feed.solid - dust.solid, liquid=feed.liquid - dust.liquid)
-        lost = self.mean_drop(inside)
-        return Cleaned(gas.replace(pressure=jnp.maximum(feed.pressure - lost, 1.0)), dust)
+        left = pressure_left(feed, self.mean_drop(inside), type(self).card)
+        return Cleaned(gas.replace(pressure=left), dust)
 
     def mean_drop(self, inside: Fibered) -> Any:
         """Between clean and final."""

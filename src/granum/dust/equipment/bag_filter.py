@@ -66,7 +66,7 @@ class Bagged(NamedTuple):
 
 @equipment(
     "bag_filter",
-    source="turner1998; leith1980",
+    source="turner1998; leith1980; kurtz2017",
     title="Bag filter (pulse-jet)",
     equation=r"\Delta p = S_e v + K_2\,c\,v^2\,\frac{t}{2}",
 )
@@ -76,8 +76,9 @@ class BagFilter(Collector):
 
     The residual drag follows from the pressure of the pulse unless it is given. What passes seeps through
     cloth and pinholes, about the same from thin and from dusty gas and of every size:
-    ``concentration_leakage`` per gas as it is. The gas must stay warmer than its dew point, and colder than
-    the cloth bears.
+    ``concentration_leakage`` per gas as it is. Needle felt without a leak lets less than 1 mg/m³ through in
+    trials, filters in plants mostly some times to ten times that: one hole of 1 mm does as much as nine bags.
+    The gas must stay warmer than its dew point, and colder than the cloth bears.
     """
 
     area: Area

@@ -15,6 +15,7 @@ from granum.dust.formulas.emission import emission_concentration
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.slip import knudsen_number, mean_free_path, slip_factor_allen_raabe
 from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vented
+from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
@@ -142,4 +143,4 @@ class Collector(Unit):
         )
         dust = feed.part(solid=share, liquid=total)
         gas = feed.replace(solid=feed.solid - dust.solid, liquid=feed.liquid - dust.liquid)
-        return Cleaned(gas.replace(pressure=jnp.maximum(feed.pressure - pressure_drop, 1.0)), dust)
+        return Cleaned(gas.replace(pressure=pressure_left(feed, pressure_drop, type(self).card)), dust)

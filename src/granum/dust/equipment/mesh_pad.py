@@ -27,6 +27,7 @@ from granum.dust.equipment.collector import EMISSION, Collector, over_axes, seen
 from granum.dust.formulas.scrubbers import grade_efficiency_mesh, impaction_number, target_efficiency_wire
 from granum.numerics.smooth import safe_divide
 from granum.streams.inside_charts import Mark, drawn_grade
+from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Utilities
 from granum.streams.utilities import FANNED, fanned
@@ -135,7 +136,7 @@ class MeshPad(Collector):
     def outlets(self, inside: Meshed, feed: Stream) -> Demisted:
         drained = feed.part(solid=over_axes(inside.share, feed), liquid=inside.mist)
         gas = feed.replace(solid=feed.solid - drained.solid, liquid=feed.liquid - drained.liquid)
-        return Demisted(gas.replace(pressure=jnp.maximum(feed.pressure - inside.lost, 1.0)), drained)
+        return Demisted(gas.replace(pressure=pressure_left(feed, inside.lost, type(self).card)), drained)
 
     def figures(self, inside: Meshed, outlets: Demisted, feed: Stream) -> MeshFigures:
         carried = feed.solid_flow + feed.liquid_flow

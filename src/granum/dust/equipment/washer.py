@@ -11,6 +11,7 @@ from granum.dust.equipment.collector import Collector, over_axes
 from granum.numerics.smooth import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.equipment.humid_gas import UNSOLVED
+from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Utilities
 from granum.streams.utilities import FANNED, fanned
@@ -56,7 +57,7 @@ class Washer(Collector):
     def mixed(self, feed: Stream, water: Stream, lost: Any) -> Stream:
         """Gas and water in equilibrium at their own enthalpy, at the pressure that is left."""
         both = feed + water
-        both = both.replace(pressure=jnp.maximum(feed.pressure - lost, 1e3))
+        both = both.replace(pressure=pressure_left(feed, lost, type(self).card))
         found = HumidMixture(feed.mixture).at_own_enthalpy(both)
         unsolved(jnp.isfinite(found.temperature), type(self).card, reason=UNSOLVED)
         return found

@@ -137,3 +137,38 @@ def grade_efficiency_deutsch(migration_velocity: Speed, area: Area, volume_flow:
     0.9933
     """
     return -jnp.expm1(-migration_velocity * area / jnp.maximum(volume_flow, 1e-300))
+
+
+@formula(
+    source="matts1964",
+    equation=r"E = 1 - \exp\left[-\left(\frac{w A}{Q}\right)^k\right]",
+    fitted={"migration_exponent": (0.4, 1.0)},
+    typical={
+        "migration_velocity": (0.1, 0.6),
+        "area": (10.0, 50000.0),
+        "volume_flow": (0.5, 1000.0),
+        "migration_exponent": (0.4, 0.6),
+    },
+    output="removal_efficiency",
+    title="Removal efficiency of a precipitator (Matts–Öhnfeldt)",
+)
+def removal_efficiency_matts_ohnfeldt(
+    migration_velocity: Speed,
+    area: Area,
+    volume_flow: VolumeFlow,
+    migration_exponent: Annotated[PositiveNumber, Within(0.05, 2.0)] = 0.5,
+) -> Fraction:
+    """Share of a whole dust that is collected, where what is left gets finer and slower along the plates.
+
+    The exponent tells how wide the sizes are: 1 is Deutsch's law of one size, 0.5 usual for fly ash. The
+    velocity that goes with it stays the same along the plates, and is higher than Deutsch's from the same
+    trial. Recalled, not opened.
+
+    By hand: 100 m² s/m³ and 0.2 m/s give exp(−√20), that is 1.14 % left; to halve that takes 1.33 times the
+    plates.
+
+    >>> round(removal_efficiency_matts_ohnfeldt(0.2, 100.0, 1.0), 4)
+    0.9886
+    """
+    plates = migration_velocity * area / jnp.maximum(volume_flow, 1e-300)
+    return -jnp.expm1(-(jnp.maximum(plates, 1e-300) ** migration_exponent))

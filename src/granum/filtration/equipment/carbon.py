@@ -44,6 +44,7 @@ from granum.numerics.smooth import safe_divide
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.inside_charts import Axis, Curve, drawn_along
+from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, FANNED, PUMPED, fanned, pumped
@@ -273,7 +274,7 @@ class GasCarbonBed(CarbonBed):
         return Fluid(feed.gas_volume_flow, density, feed.gas_viscosity, feed.gas[self.place(feed)])
 
     def left(self, feed: Stream, inside: Bedded) -> Any:
-        return jnp.maximum(feed.pressure - inside.lost, 1.0)
+        return pressure_left(feed, inside.lost, type(self).card)
 
     def measured(
         self, inside: Bedded, outlets: Purified, figures: CarbonFigures, feed: Stream

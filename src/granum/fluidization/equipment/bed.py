@@ -27,6 +27,7 @@ from granum.fluidization.formulas.two_phase import two_phase_bed
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.terminal import terminal_velocity
+from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import AREA, FANNED, fanned
@@ -158,7 +159,7 @@ class FluidizedBed(Unit):
         carried = feed.solid * share
         moist = safe_divide(jnp.sum(carried), feed.solid_flow)
         gas = feed.part(solid=share, liquid=moist, gas=1.0)
-        lower = jnp.maximum(feed.pressure - self._drop(inside), 1.0)
+        lower = pressure_left(feed, self._drop(inside), type(self).card)
         product = feed.replace(
             solid=feed.solid - carried, liquid=feed.liquid - gas.liquid, gas=0.0 * feed.gas
         )
