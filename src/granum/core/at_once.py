@@ -17,7 +17,7 @@ from granum.core import flags
 from granum.core.packing import as_arrays, compiled, of_jax
 from granum.core.steps import recorded
 
-NUMBERS = (float, int, np.ndarray, np.generic, jax.Array, list, tuple)
+NUMBERS = (float, int, np.ndarray, np.generic, jax.Array)
 
 
 def at_once(*fixed: str, **read: Callable[[Any], Any]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
@@ -79,6 +79,9 @@ def at_once(*fixed: str, **read: Callable[[Any], Any]) -> Callable[[Callable[...
 
 def _as_numbers(value: Any) -> Any:
     """Numbers of any sort as arrays, those within a module too."""
+    if isinstance(value, list | tuple):
+        alike = all(isinstance(x, NUMBERS) for x in value)
+        return np.asarray(value, dtype=float) if value and alike else as_arrays(value)
     if isinstance(value, NUMBERS) and not isinstance(value, bool):
         return np.asarray(value, dtype=float)
     return as_arrays(value)
