@@ -70,8 +70,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Seventeen thousand tests, and all that was imported for them, stay to the end: whoever looks for garbage
-    need not look there.
+    """Seventeen thousand tests, and all that was imported for them, stay to the end: whoever looks for
+    garbage need not look there.
     """
     gc.collect()
     gc.freeze()
