@@ -501,9 +501,9 @@ def _described(cards: Sequence[Entry], needles: Sequence[str]) -> list[Entry]:
 @one_message
 def show(key: Key, as_json: Json = False) -> None:
     """Show a card: inputs with units and limits, outputs, equation, source."""
-    from granum.core import registry
+    from granum.core import kept
 
-    card = registry.find(key).card
+    card = kept.card(key)
     if as_json:
         emit(card.as_json())
     else:

@@ -21,7 +21,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.core import kept
+from granum.core import kept, registry
 from granum.core.compiling import begun, once
 from granum.core.i18n import language
 from granum.core.uncompiled import Program
@@ -330,3 +330,45 @@ def test_a_line_is_the_same_the_second_time(tmp_path: Path) -> None:
             first = files
     assert told[0] == told[1]
     assert files == first  # nothing had to be traced and written again
+
+
+@pytest.mark.parametrize("key", ["filtration.rotary_vacuum_drum", "particles.terminal_velocity"])
+def test_a_card_is_the_same_from_what_an_earlier_process_kept(folder: Path, key: str) -> None:
+    assert kept.card(key) is registry.find(key).card
+    assert len(leave(folder)) == 1
+    again = kept.card(key)
+    assert again is not registry.find(key).card
+    assert again.as_json() == registry.find(key).card.as_json()
+
+
+def test_a_kept_card_is_shown_without_jax(tmp_path: Path) -> None:
+    shown, script = (
+        [],
+        "import sys; from granum.cli import app; app(standalone_mode=False); print('jax' in sys.modules)",
+    )
+    for spoken in ("en", "en", "fr", "fr"):
+        environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path), "GRANUM_LANG": spoken}
+        words = ["show", "filtration.rotary_vacuum_drum"]
+        begun = "from granum.shell import keep_compiled_code as keep; from granum.core import kept; keep(); "
+        done = subprocess.run(
+            [sys.executable, "-c", f"{begun}{script}; kept.store()", *words],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        card, _newline, with_jax = done.stdout.strip().rpartition("\n")
+        shown.append((card, with_jax))
+    (english, first), (same, second), (french, _), (_, fourth) = shown
+    assert english == same != french
+    assert (first, second, fourth) == ("True", "False", "False")
+
+
+def test_what_a_card_was_kept_for_is_not_read_when_files_have_changed(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    key = "filtration.rotary_vacuum_drum"
+    kept.card(key)
+    leave(folder)
+    monkeypatch.setattr(kept, "_surroundings", lambda: b"another version")
+    assert kept.card(key) is registry.find(key).card

@@ -29,7 +29,11 @@ ENDING = ".trace"
 TRACERS = ("jax", "jaxlib", "numpy", "equinox", "optimistix", "diffrax", "lineax")
 TRUSTED = frozenset(("granum", "builtins", "collections", "functools", "pathlib", *TRACERS))
 """Packages whose code is the same whenever version and files are: all else may change unnoticed."""
-HARMLESS = frozenset(("complex", "slice", "frozenset", "set", "bytearray", "range"))
+HARMLESS = frozenset(
+    ("complex", "slice", "frozenset", "set", "bytearray", "range", "bool", "int", "float", "str")
+)
+NO_DEFAULT = ("inspect", "_empty")
+"""What stands on a card for a value that must be given."""
 
 UNREADABLE = (AttributeError, ImportError, TypeError, ValueError, EOFError)
 """What a pickle that does not fit its readers raises."""
@@ -92,6 +96,17 @@ class Named:
             except (Unkept, pickle.PicklingError, AttributeError, TypeError, ValueError, RecursionError):
                 self._path = None
 
+    @classmethod
+    def by(cls, word: str) -> Named:
+        """By a word: for what depends on nothing but the files of this package, and is read without JAX."""
+        named = cls.__new__(cls)
+        named._path, named._whole = None, []
+        folder = _folder[0]
+        if folder is not None:
+            digest = sha256(_surroundings() + word.encode()).hexdigest()
+            named._path = folder / f"{digest}{ENDING}"
+        return named
+
     def found(self) -> Any:
         """What was kept under this name; None where there is nothing, or nothing whole."""
         if self._path is None:
@@ -114,6 +129,20 @@ class Named:
         """Keep what ``content`` gives when the process ends; nothing, where that is None."""
         if self._path is not None:
             _pending[self._path] = functools.partial(_dumped, content, self._whole)
+
+
+def card(key: str) -> Any:
+    """The card of a key. Where programs are kept it is as an earlier process built it from the same files, so
+    that what is only read about need not be imported.
+    """
+    named = Named.by(f"card {key}")
+    found = named.found()
+    if found is None:
+        from granum.core import registry
+
+        found = registry.find(key).card
+        named.put(lambda: found)
+    return found
 
 
 def store() -> None:
@@ -286,6 +315,8 @@ class _Loader(pickle.Unpickler):
         if (module_name, name) == (__name__, _whole.__name__):
             return self._whole.__getitem__
         root = module_name.partition(".")[0]
+        if (module_name, name) == NO_DEFAULT:
+            return super().find_class(module_name, name)
         if root not in TRUSTED or (root == "builtins" and name not in HARMLESS):
             raise pickle.UnpicklingError(name)
         return super().find_class(module_name, name)

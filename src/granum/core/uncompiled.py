@@ -9,6 +9,7 @@ once is compiled at once by the next process, when the program is kept for it (`
 from __future__ import annotations
 
 import threading
+import weakref
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
@@ -52,6 +53,8 @@ thirds of the time.
 """
 
 _taken = threading.local()
+_written: weakref.WeakValueDictionary[tuple[bytes, str], Any] = weakref.WeakValueDictionary()
+"""Compiled loops by how they are kept."""
 
 
 class Outgrown(Exception):
@@ -208,9 +211,24 @@ class _Loop:
             if self._compiled is None:
                 if self._kept:
                     lapack.at_hand()
-                self._compiled = jax.jit(self._function(values), **self._options)
+                self._compiled = self._ready(values)
             found = [np.asarray(x)[()] for x in self._compiled(*values)]
         return _alone(found)
+
+    def _ready(self, values: tuple[Any, ...]) -> Callable[..., Any]:
+        """Made ready for the compiler, once for all loops that are alike, as of several fans in a line."""
+        found = self._alike()
+        if found is None:
+            function = self._function(values)
+            found = self._alike()
+            if found is None:
+                found = jax.jit(function, **self._options)
+                if self.written is not None:
+                    _written[self.written, repr(self._options)] = found
+        return found
+
+    def _alike(self) -> Callable[..., Any] | None:
+        return None if self.written is None else _written.get((self.written, repr(self._options)))
 
     def _function(self, values: tuple[Any, ...]) -> Callable[..., Any]:
         """What is compiled: through the form in which it is kept, so that the compiler's own cache knows it

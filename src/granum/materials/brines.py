@@ -17,6 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
+from granum.core.at_once import at_once
 from granum.core.constants import GAS_CONSTANT
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -240,11 +241,13 @@ class Brine(eqx.Module):
             owner = Owner.of_property(system.name, "water activity", system.french)
             flags.record(flags.EXTRAPOLATED, beyond, m, "salt_molality", owner, 0.0, law.most, law.source)
 
+    @at_once()
     def water_activity(self, T: Any, molalities: Any) -> Any:
         """Activity of water over the solution."""
         m = jnp.maximum(molalities, TRACE)
         return jnp.exp(log_activities(m, self.charges, self.coefficients(T))[1])
 
+    @at_once()
     def excess_enthalpy(self, T: Any, molalities: Any) -> Any:
         """Enthalpy of ions in a kilogram of water over that at infinite dilution, J: from the slope of their
         excess Gibbs energy with temperature.
@@ -288,6 +291,7 @@ class Brine(eqx.Module):
         doubles = [c.double.log_product(T) for c in self.crystals if c.double is not None]
         return jnp.append(at_end + (at_end - at_inside) * beyond, jnp.asarray(doubles))
 
+    @at_once()
     def saturation(self, T: Any, molalities: Any) -> Any:
         """Logarithm of the saturation ratio of each crystal, per ion: zero at saturation."""
         counts = jnp.asarray([sum(c.ions) for c in self.crystals])
@@ -299,6 +303,7 @@ class Brine(eqx.Module):
         """Solubility of each salt alone, mol/kg."""
         return jnp.stack([s.value(T) / M for s, M in zip(self.salts, self.molar_masses, strict=True)])
 
+    @at_once("crystal")
     def solubility(self, T: Any, others: Any, crystal: int) -> Any:
         """What dissolves of one crystal beside the ions of other salts (mol/kg), mol of its salt per kg of
         water; far more than alone of a hydrate that no liquor there is saturated with.

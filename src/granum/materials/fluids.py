@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax.numpy as jnp
 
+from granum.core.at_once import at_once
 from granum.core.constants import STANDARD_ATMOSPHERE, ZERO_CELSIUS
 from granum.core.i18n import _, current_language
 from granum.materials.correlation import Correlation, Missing, as_pressure, as_temperature
@@ -88,6 +89,7 @@ class Fluid(eqx.Module):
         """Density as an ideal gas, kg/m³."""
         return ideal_gas_density(as_temperature(temperature), self.molar_mass, as_pressure(pressure))
 
+    @at_once(pressure=as_pressure)
     def boiling_temperature(self, pressure: Any = STANDARD_ATMOSPHERE) -> Any:
         """Temperature at which the vapor pressure reaches a pressure, K; also the dew point at a partial
         pressure.
@@ -99,10 +101,12 @@ class Fluid(eqx.Module):
         root = find_root(lambda T, y: jnp.log(law.value(T)) - y, law.low, law.high, goal)
         return root.value
 
+    @at_once(temperature=as_temperature)
     def liquid_enthalpy(self, temperature: Any) -> Any:
         """Specific enthalpy of the liquid, J/kg, zero at 0 °C."""
         return self._integral(self.liquid_heat_capacity, temperature)
 
+    @at_once(temperature=as_temperature)
     def vapor_enthalpy(self, temperature: Any) -> Any:
         """Specific enthalpy of the vapor or gas, J/kg: evaporated at 0 °C, then heated."""
         sensible = self._integral(self.vapor_heat_capacity, temperature)

@@ -8,6 +8,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 
+from granum.core.at_once import at_once
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.i18n import _, current_language
 from granum.materials.correlation import Correlation, Missing, as_temperature
@@ -46,6 +47,7 @@ class Solid(eqx.Module):
         """Its name in the current language."""
         return self.french if current_language() == "fr" and self.french else self.name
 
+    @at_once(temperature=as_temperature)
     def enthalpy(self, temperature: Any) -> Any:
         """Specific enthalpy, J/kg, zero at 0 °C."""
         T = as_temperature(temperature)
@@ -57,6 +59,7 @@ class Solid(eqx.Module):
         """Whether the pressure of its vapor is known."""
         return isinstance(self.sublimation_pressure, Correlation)
 
+    @at_once(temperature=as_temperature)
     def heat_of_sublimation(self, temperature: Any) -> Any:
         """By Clausius and Clapeyron from the slope of the pressure of its vapor, J/kg."""
         T = jnp.asarray(as_temperature(temperature), dtype=float)

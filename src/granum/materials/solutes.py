@@ -16,6 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
+from granum.core.at_once import at_once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError, unknown_name
 from granum.core.i18n import _, current_language
@@ -184,6 +185,7 @@ class SoluteSystem(eqx.Module):
             out = value if out is None else jnp.where(here, value, out)
         return out
 
+    @at_once("crystal", temperature=as_temperature)
     def solubility(self, temperature: Any, crystal: str | None = None) -> Any:
         """Saturation, kg of anhydrous solute per kg of solvent; over the stable crystal, or over a named
         one.
@@ -193,6 +195,7 @@ class SoluteSystem(eqx.Module):
             self.branch(crystal).solubility(T) if crystal else self._select(T, lambda b, t: b.solubility(t))
         )
 
+    @at_once()
     def value(self, temperature: Any) -> Any:
         """Saturation over the stable crystal, without flags and beyond the data, as of ``Branch.value``."""
         return self._select(temperature, lambda b, t: b.value(t))
@@ -212,6 +215,7 @@ class SoluteSystem(eqx.Module):
         """kg of the stable crystal per kg of anhydrous solute in it."""
         return self._select(as_temperature(temperature), lambda b, t: b.hydrate_ratio + 0.0 * t)
 
+    @at_once(temperature=as_temperature)
     def heat_of_crystallization(self, temperature: Any) -> Any:
         """Heat released on crystallization at saturation, J per kg of anhydrous solute: that of one
         temperature, and from there by Kirchhoff's law.
@@ -230,6 +234,7 @@ class SoluteSystem(eqx.Module):
 
         return self._select(as_temperature(temperature), released)
 
+    @at_once("crystal", solute_per_solvent=as_solute_ratio)
     def saturation_temperature(self, solute_per_solvent: Any, crystal: str | None = None) -> Any:
         """Temperature at which a solution is saturated, K; NaN outside the range of the data. For rising
         solubilities.
@@ -269,6 +274,7 @@ class SoluteSystem(eqx.Module):
         """Activity of the solvent over the solution."""
         return self.activity_law(as_temperature(temperature), as_solute_ratio(solute_per_solvent))
 
+    @at_once(pressure=as_pressure, solute_per_solvent=as_solute_ratio)
     def boiling_temperature(self, pressure: Any, solute_per_solvent: Any) -> Any:
         """Temperature at which the solution boils, K; NaN outside the range of the vapor pressure."""
         P, ratio = jnp.asarray(as_pressure(pressure)), jnp.asarray(as_solute_ratio(solute_per_solvent))
@@ -282,6 +288,7 @@ class SoluteSystem(eqx.Module):
 
         return find_root(excess, law.low, law.high, jnp.maximum(P, 1e-300), ratio).value
 
+    @at_once(pressure=as_pressure, solute_per_solvent=as_solute_ratio)
     def boiling_point_elevation(self, pressure: Any, solute_per_solvent: Any) -> Any:
         """By how much hotter the solution boils than the solvent, K."""
         pure = self.solvent.boiling_temperature(pressure)

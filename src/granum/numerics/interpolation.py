@@ -10,6 +10,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 
+from granum.core.at_once import at_once
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide
 
@@ -37,6 +38,7 @@ def interpolate_linear(x: Any, points: Any, values: Any) -> tuple[jax.Array, jax
     return values[i] + slope * (x - points[i]), (points[0] <= x) & (x <= points[-1])
 
 
+@at_once()
 def slopes_pchip(points: jax.Array, values: jax.Array) -> jax.Array:
     """Slopes at the points by Fritsch and Butland (1984), as in PCHIP: weighted harmonic mean.
 
@@ -51,6 +53,7 @@ def slopes_pchip(points: jax.Array, values: jax.Array) -> jax.Array:
     return _with_ends(inner, h, d, 3.0)
 
 
+@at_once()
 def slopes_steffen(points: jax.Array, values: jax.Array) -> jax.Array:
     """Slopes at the points by Steffen (1990): the parabola's, limited to twice either secant.
 
@@ -88,6 +91,7 @@ class MonotoneCubic(eqx.Module):
         points, values = jnp.asarray(points, dtype=float), jnp.asarray(values, dtype=float)
         return cls(points, values, slopes(points, values))
 
+    @at_once()
     def __call__(self, x: Any) -> tuple[jax.Array, jax.Array]:
         """Value, and whether ``x`` lies in the table; shapes of ``x``."""
         x = jnp.asarray(x, dtype=float)
@@ -99,6 +103,7 @@ class MonotoneCubic(eqx.Module):
         beyond = beyond + jnp.maximum(x - last, 0.0) * self.slopes[-1]
         return self._cubic(t, i) + beyond, (first <= x) & (x <= last)
 
+    @at_once()
     def derivative(self, x: Any) -> jax.Array:
         """Slope at ``x``, same shape; that of the end outside the table."""
         x = jnp.clip(jnp.asarray(x, dtype=float), self.points[0], self.points[-1])
@@ -109,6 +114,7 @@ class MonotoneCubic(eqx.Module):
         a, b = self.slopes[i], self.slopes[i + 1]
         return a + t * (2.0 * (3.0 * rise - 2.0 * a - b) + 3.0 * t * (a + b - 2.0 * rise))
 
+    @at_once()
     def inverse(self, y: Any) -> tuple[jax.Array, jax.Array]:
         """Abscissa of the value ``y``, and whether the table reaches it; shapes of ``y``.
 

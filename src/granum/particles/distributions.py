@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.at_once import at_once
 from granum.core.conversion import is_tracer
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -126,6 +127,7 @@ class SizeDistribution(eqx.Module):
     def _weights(self, power: Any) -> Any:
         return self.in_class(self.lower, self.upper, power)
 
+    @at_once("power", "basis")
     def moment(self, power: Any, basis: str | None = None) -> Any:
         """Mean of ``x**power`` weighted by a basis (its own by default), m^power: M_{k,r} of ISO 9276-2.
 
@@ -137,6 +139,7 @@ class SizeDistribution(eqx.Module):
         above = self.fractions @ self._weights(power + shift)
         return above / (self.fractions @ self._weights(shift)) if shift else above
 
+    @at_once("p", "q")
     def mean(self, p: float, q: float) -> Any:
         """D[p,q], the moment-ratio mean of ISO 9276-2: ``(M_p0 / M_q0) ** (1 / (p - q))``, m.
 
@@ -155,6 +158,7 @@ class SizeDistribution(eqx.Module):
         high, low = (self.fractions @ self._weights(k - self.order) for k in (p, q))
         return (high / low) ** (1.0 / (p - q))
 
+    @at_once("basis")
     def to_basis(self, basis: str) -> SizeDistribution:
         """The same distribution counted on another basis."""
         shift = order_of(basis) - self.order
@@ -168,6 +172,7 @@ class SizeDistribution(eqx.Module):
         start = jnp.zeros((*self.fractions.shape[:-1], 1))
         return jnp.concatenate([start, jnp.cumsum(self.fractions, axis=-1)], axis=-1)
 
+    @at_once()
     def cumulative(self, size: Any) -> Any:
         """Fraction below a size; 0 below the smallest edge, 1 above the largest. A distribution stack gives
         ``(many, *size)``.
@@ -185,12 +190,14 @@ class SizeDistribution(eqx.Module):
         """Fraction per size in each class: the height of the histogram, 1/m."""
         return self.fractions / (self.upper - self.lower)
 
+    @at_once()
     def log_density(self) -> Any:
         """Fraction per natural logarithm of size in each class; 0 where a class starts at 0."""
         usable = self.lower > 0
         width = jnp.log(self.upper / jnp.where(usable, self.lower, self.upper / jnp.e))
         return jnp.where(usable, self.fractions / width, 0.0)
 
+    @at_once()
     def percentile(self, part: Any) -> Any:
         """Size below which a part (0 to 1) of the material lies; always a size between the first and the last
         edge.

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -17,9 +17,7 @@ from granum.core.glossary import ending, quantity_in, term
 from granum.core.i18n import _, current_language
 from granum.core.kinds import KINDS, Kind, kind_of
 from granum.core.limits import Limit
-from granum.core.notices import units_of
 from granum.core.parameters import Parameter, default_as_json
-from granum.core.results import Result
 from granum.core.sources import cite
 from granum.core.units import (
     decimal,
@@ -31,6 +29,9 @@ from granum.core.units import (
     show,
     ten_to,
 )
+
+if TYPE_CHECKING:
+    from granum.core.results import Result
 
 AMBIGUOUS = ("dimensionless", "1/m")  # a percentage or a number; a surface per volume or a medium resistance
 MOST_SHOWN = 8
@@ -92,6 +93,8 @@ def beside_rows(result: Result) -> list[BesideRow]:
 
 
 def _beside(row: dict[str, Any]) -> BesideRow:
+    from granum.core.notices import units_of  # takes JAX, which a card that is only shown does not
+
     shown, unit = units_of(row | {"worst": row["value"]})
     word = quantity_in(row["name"])
     value, low, high = row["value"], row["low"], row["high"]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextvars import ContextVar
 from io import StringIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich import box
@@ -19,7 +19,6 @@ from granum.core.glossary import glossary, term
 from granum.core.i18n import _
 from granum.core.kinds import Kind
 from granum.core.parameters import Parameter
-from granum.core.results import Result
 from granum.core.symbols import text_symbol
 from granum.core.units import format_number, pretty_unit, show
 from granum.reports.quantities import (
@@ -35,6 +34,9 @@ from granum.reports.quantities import (
     value_text,
 )
 from granum.reports.utilities import utility_rows
+
+if TYPE_CHECKING:
+    from granum.core.results import Result
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
 NOTEBOOK = 110  # characters across

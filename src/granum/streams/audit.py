@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
+from granum.core.at_once import at_once
 from granum.streams.stream import Stream
 
 
@@ -26,7 +27,11 @@ def closure(inlets: Iterable[Stream], outlets: Iterable[Stream], power: Any = 0.
     inlets, outlets: streams crossing the boundary.
     power: heat and work taken up from outside, W.
     """
-    inlets, outlets = list(inlets), list(outlets)
+    return _closure(tuple(inlets), tuple(outlets), power)
+
+
+@at_once()
+def _closure(inlets: tuple[Stream, ...], outlets: tuple[Stream, ...], power: Any) -> Closure:
     streams = [*inlets, *outlets]
     entering = jnp.array([[1.0] * len(inlets) + [0.0] * len(outlets)])
     components, enthalpies = (
