@@ -130,7 +130,7 @@ class ClassifiedCrystallizer(Evaporative):
         """Liquor drawn off behind the baffle beside the product, m³/s."""
         entering = feed_of(feed, found)
         crystal = crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor)
-        flow = self._liquor(feed, found)(entering.solute, entering.solvent - evaporation)
+        flow = self._liquor(feed, found, self.temperature)(entering.solute, entering.solvent - evaporation)
         return jnp.maximum(self.fines_removal_ratio - 1.0, 0.0) * (
             flow + jnp.sum(entering.crystals) / crystal.density
         )
@@ -168,7 +168,7 @@ class ClassifiedCrystallizer(Evaporative):
         self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
     ) -> ClassifiedFigures:
         found = inside[1]
-        evaporation, _more = self._evaporation(feed, found)
+        evaporation, _more = self._evaporation(feed, found, self.temperature)
         removal = self._removal(feed, found, evaporation)
         baffle, leg = self._upflows(feed, found, evaporation)
         return ClassifiedFigures(

@@ -47,6 +47,7 @@ class Feed(NamedTuple):
 class SteadyState(NamedTuple):
     """A steady continuous crystallizer.
 
+    temperature: K.
     solute_per_solvent, solubility_per_solvent: composition of the mother liquor and at saturation, kg/kg.
     relative_supersaturation: of the mother liquor.
     crystals: product by size class, kg/s; the last class takes the tail beyond the grid.
@@ -58,6 +59,7 @@ class SteadyState(NamedTuple):
     converged: whether the mass balance was closed.
     """
 
+    temperature: Any
     solute_per_solvent: Any
     solubility_per_solvent: Any
     relative_supersaturation: Any
@@ -320,6 +322,7 @@ def steady_msmpr(
     left = all_solvent - bound * product
     soluble = at(left)
     return SteadyState(
+        temperature,
         c,
         soluble,
         c / soluble - 1.0,
