@@ -35,6 +35,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.crystallization.equipment.beside import solubility_beside
+from granum.crystallization.equipment.colliding import Colliding
 from granum.crystallization.equipment.in_time import Crystallized
 from granum.crystallization.equipment.msmpr import Evaporative
 from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, saturated_at
@@ -84,7 +85,7 @@ class ClassifiedFigures(NamedTuple):
     equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau},\quad "
     r"v_t(L_f) = \frac{(R-1)\dot V}{A_b}",
 )
-class ClassifiedCrystallizer(Evaporative):
+class ClassifiedCrystallizer(Colliding, Evaporative):
     """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts
     (R–Z model).
 

@@ -57,6 +57,7 @@ from granum.crystallization.equipment.roles import (
 )
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.kinds import Growth, Nucleation, Solubility, VesselVolume
+from granum.crystallization.population.grid import Collisions
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.mixture import Mixture
@@ -129,7 +130,7 @@ STEADY: Limits = {
 }
 
 
-class _Continuous(Colliding, Stirred, Unit):
+class _Continuous(Stirred, Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
     temperature: Temperature
@@ -274,6 +275,11 @@ class _Continuous(Colliding, Stirred, Unit):
         """Fines dissolved and product classified; none by default."""
         return None
 
+    @property
+    def collisions(self) -> Collisions | None:
+        """What crystals do to each other; nothing by default."""
+        return None
+
     @abstractmethod
     def _evaporation(self, feed: Stream, found: Roles, temperature: Any) -> tuple[Any, Any]:
         """Solvent evaporated, kg/s, and what is added to it per kg of crystals formed."""
@@ -307,7 +313,7 @@ class _Evaporating(Evaporative):
     title="Continuous crystallizer, cooled or evaporative (MSMPR)",
     equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)",
 )
-class Msmpr(_Evaporating, InTime):
+class Msmpr(Colliding, _Evaporating, InTime):
     """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and
     evaporation.
 
@@ -328,7 +334,7 @@ class Msmpr(_Evaporating, InTime):
     title="Continuous vacuum crystallizer (adiabatic flash)",
     equation=r"\dot H_{feed} + \dot Q = \dot H_{product} + \dot H_{vapor}",
 )
-class VacuumCrystallizer(_Continuous, InTime):
+class VacuumCrystallizer(Colliding, _Continuous, InTime):
     """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to
     foul.
 

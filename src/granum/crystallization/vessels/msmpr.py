@@ -242,7 +242,7 @@ def steady_msmpr(
             """Crystals in the vessel over those of a product that leaves with the liquor."""
             return safe_divide(jnp.sum(cubes), jnp.sum(grid.shares * cubes), 1.0)
 
-        def next_to(c: Any, born: Any, before: State) -> Standing:
+        def next_to(c: Any, born: Any, before: State, cautious: Any = False) -> Standing:
             product, flow, G, _nuclei, _magma = state(c)
             grid = classes_for(G * volume / flow, flow / volume, 2.0 * edges[-1], outflow)
             magma = held_over(grid, before[1]) * product / flow
@@ -255,6 +255,7 @@ def steady_msmpr(
                 jnp.append(start_sizes, nucleus_size),
                 G,
                 volume,
+                cautious,
             )
 
         def cubes_wanted(c: Any) -> Any:
@@ -279,8 +280,8 @@ def steady_msmpr(
         def at_share(share: Any) -> Any:
             return saturated + share * over
 
-        def following(share: Any, born: Any, before: State) -> State:
-            made = next_to(at_share(share), born, before)
+        def following(share: Any, born: Any, before: State, cautious: Any) -> State:
+            made = next_to(at_share(share), born, before, cautious)
             return made.numbers, made.cubes
 
         crowd = steady_crowd(
