@@ -17,6 +17,7 @@ from granum.crystallization.equipment.antisolvent import (
 )
 from granum.crystallization.equipment.controlled import NucleationControlledCrystallizer
 from granum.crystallization.equipment.dissolver import Dissolver
+from granum.crystallization.equipment.extractive import ExtractiveCrystallizer
 from granum.crystallization.equipment.hydroxides import HydroxidePrecipitator
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
@@ -38,6 +39,7 @@ from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
 THREONINE = ("L-threonine", "D-threonine")
+EXTRACTED = ("water", "sodium chloride", "ethanol", "adipic acid")
 IMPURE = ("water", "potassium nitrate", "sodium chloride")
 
 
@@ -69,6 +71,22 @@ def _met(mixture: Mixture, x: Any) -> dict[str, Stream]:
     )
     spirit = empty(mixture, 285.0 + 20.0 * x[6]).replace(
         liquid=water * x[4] * jnp.stack([0.2 * x[5], 0.02 * x[7], 1.0 - 0.2 * x[5]])
+    )
+    return {"feed": feed, "antisolvent": spirit}
+
+
+def _extracted(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with salt and up to 10 % of an acid, crystals of both in every second one; up
+    to twice as much ethanol, with up to a fifth of water and some acid.
+    """
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    seeds = 0.05 * jnp.stack([x[3] * (x[3] > 0.5), x[7] * (x[7] > 0.5)])
+    feed = empty(mixture, 290.0 + 20.0 * x[2]).replace(
+        solid=water * seeds[:, None] * shares(x[4], x[5], classes)[None],
+        liquid=water * jnp.stack([1.0, 0.1 + 0.3 * x[1], 0.0, 0.1 * x[6]]),
+    )
+    spirit = empty(mixture, 285.0 + 20.0 * x[6]).replace(
+        liquid=2.0 * water * x[4] * jnp.stack([0.2 * x[5], 0.0, 1.0 - 0.2 * x[5], 0.02 * x[7]])
     )
     return {"feed": feed, "antisolvent": spirit}
 
@@ -209,6 +227,20 @@ def mixed(classes: int) -> dict[str, Case]:
                 PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
                 solid="nitrate",
                 solvent="water",
+                second_solvent="ethanol",
+            ),
+        ),
+        "extracted": Case(
+            mixture_of(EXTRACTED, ["sodium chloride", "adipic acid"], [], edges),
+            _extracted,
+            lambda f, u: ExtractiveCrystallizer(
+                285.0 + 25.0 * u[0],
+                (f["feed"].slurry_volume_flow + f["antisolvent"].slurry_volume_flow)
+                * 10.0 ** (2.5 + 1.5 * u[1]),
+                AntisolventSolubility(PolynomialSolubility([0.356]), 1.0 + 5.0 * u[5]),
+                PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+                PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
+                other_solubility=AntisolventSolubility(PolynomialSolubility([0.02]), -3.0 * u[0]),
                 second_solvent="ethanol",
             ),
         ),

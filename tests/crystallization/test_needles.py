@@ -14,6 +14,7 @@ from tests.contracts.unit_search import Case, rows, shares, tried, wrong
 from tests.sharing.places import EXAMPLES
 
 import granum as gr
+from granum.core.errors import GranumError
 from granum.core.packing import compiled
 from granum.crystallization.equipment.needles import NeedleBatchCrystallizer, NeedleCrystallizer
 from granum.crystallization.formulas.growth import PowerLawGrowth
@@ -282,3 +283,10 @@ def test_needles_keep_their_shape_in_a_line() -> None:
     fastest = 100.75 / 12.21 * float(values.relative_supersaturation_maximum) ** (1.74 - 1.48)
     assert 2.0 < float(values.aspect_ratio) < fastest < 3.0
     assert float(run.streams["dry_needles"].liquid_flow) < 1e-3 * dried.sum()
+
+
+def test_a_continuous_vessel_of_needles_takes_no_kernel():
+    """It follows crystals that only grow, and had taken one in silence."""
+    kernel = {"law": "constant_kernel", "agglomeration_coefficient": 1e-11}
+    with pytest.raises(GranumError, match="agglomeration_kernel"):
+        gr.alone("crystallization.needle_crystallizer", agglomeration_kernel=kernel).solve()

@@ -121,3 +121,73 @@ def test_what_keeps_a_vessel_from_boiling_is_named(tmp_path: Path) -> None:
 def test_one_of_the_two(tmp_path: Path, held: str) -> None:
     with pytest.raises(CaseError, match="either 'temperature' or 'pressure'"):
         vessel(tmp_path, held).solve()
+
+
+BESIDE = (
+    LINE.replace('["water", "{salt}"]', '["water", "sodium chloride", "potassium chloride"]')
+    .replace('"{salt}" = {solute}', '"sodium chloride" = {sodium}, "potassium chloride" = {potassium}')
+    .replace('{{ law = "library_solubility", solute = "{salt}" }}', "{law}")
+)
+LIBRARY = '{ law = "library_solubility", solute = "sodium chloride" }'
+EVAPORATOR = 'model = "evaporation.evaporator"\npressure = {}\npressure_steam = "5 bar"\narea = 1e-9\n'
+
+
+def brine_line(tmp_path: Path, held: str, hot: str, sodium: float, potassium: float, law=LIBRARY, **unit):
+    text = BESIDE.format(
+        held=held,
+        salt="sodium chloride",
+        hot=hot,
+        water=1.0 - sodium - potassium,
+        sodium=sodium,
+        potassium=potassium,
+        law=law,
+    )
+    if "evaporator" in unit:
+        head, rest = text.split("[units.flash]")
+        text = f"{head}[units.flash]\n{unit['evaporator']}[streams]{rest.split('[streams]')[1]}"
+    (tmp_path / "line.toml").write_text(text, encoding="utf-8")
+    return gr.read(tmp_path / "line.toml")
+
+
+@pytest.mark.parametrize(
+    ("hot", "sodium", "potassium", "pressure"),
+    [("105 degC", 0.22, 0.10, 1e4), ("108 degC", 0.20, 0.13, 5e4), ("40 degC", 0.05, 0.05, 3e3)],
+)
+def test_other_salts_raise_the_boiling_point_at_a_pressure(
+    tmp_path: Path, hot: str, sodium: float, potassium: float, pressure: float
+) -> None:
+    """By as much as in an evaporator without any heating wall, which seeks salts, vapor and temperature
+    together by another method.
+    """
+    made = figures(brine_line(tmp_path, f"pressure = {pressure}", hot, sodium, potassium))
+    wall = EVAPORATOR.format(pressure)
+    same = figures(brine_line(tmp_path, "", hot, sodium, potassium, evaporator=wall))
+    assert float(made.boiling_temperature) == pytest.approx(float(same.boiling_temperature), abs=2e-5)
+    alone = figures(brine_line(tmp_path, f"pressure = {pressure}", hot, sodium, 0.0))
+    assert float(made.boiling_point_elevation) > float(alone.boiling_point_elevation) + 0.3
+    back = figures(
+        brine_line(tmp_path, f"temperature = {float(made.boiling_temperature)!r}", hot, sodium, potassium)
+    )
+    assert float(back.pressure) == pytest.approx(pressure, rel=1e-3)  # the supersaturation lowers it
+
+
+def test_a_law_of_ones_own_beside_other_salts(tmp_path: Path) -> None:
+    """The solubility that the library says there, given as a law, boils at the same temperature."""
+    solved = brine_line(tmp_path, "pressure = 1e4", "105 degC", 0.22, 0.10).solve()
+    made, product = solved.units["flash"].values, solved.streams["suspension"]
+    ratio = float(product.liquid[1] / product.liquid[0]) / (1.0 + float(made.relative_supersaturation))
+    law = f'{{ law = "polynomial_solubility", coefficients = [{ratio!r}] }}'
+    own = figures(brine_line(tmp_path, "pressure = 1e4", "105 degC", 0.22, 0.10, law))
+    assert float(own.boiling_temperature) == pytest.approx(float(made.boiling_temperature), abs=2e-3)
+
+
+def test_in_time_it_settles_where_the_steady_one_boils(tmp_path: Path) -> None:
+    line = brine_line(tmp_path, "pressure = 1e4", "105 degC", 0.22, 0.10)
+    there = figures(line)
+    text = (tmp_path / "line.toml").read_text(encoding="utf-8")
+    moving = text + '[dynamic]\nduration = "20 min"\nstep = "2 min"\nstart = { flash = "steady" }\n'
+    (tmp_path / "line.toml").write_text(moving, encoding="utf-8")
+    course = gr.read(tmp_path / "line.toml").solve().course
+    T = np.asarray(course.streams["suspension"].temperature)
+    np.testing.assert_allclose(T, float(there.boiling_temperature), atol=1e-6)
+    assert float(course.balance) < 1e-6

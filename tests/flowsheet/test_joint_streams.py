@@ -388,6 +388,7 @@ EVAPORATORS = {
 ELSEWHERE = {
     "crystallization.antisolvent_batch_crystallizer",
     "crystallization.antisolvent_crystallizer",
+    "crystallization.extractive_crystallizer",
     "crystallization.hydroxide_precipitator",
     "crystallization.impurity_uptake",  # needs species in crystals: test_uptake
     "crystallization.desublimer",  # need a solid among the gases: test_sublimation

@@ -80,6 +80,10 @@ from granum.crystallization.equipment.dissolver import (
     Dissolver as Dissolver,
     DissolverFigures as DissolverFigures,
 )
+from granum.crystallization.equipment.extractive import (
+    ExtractiveCrystallizer as ExtractiveCrystallizer,
+    ExtractiveFigures as ExtractiveFigures,
+)
 from granum.crystallization.equipment.heat import (
     StreamHeat as StreamHeat,
 )

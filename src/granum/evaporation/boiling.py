@@ -20,7 +20,7 @@ from granum.core.errors import CaseError
 from granum.core.i18n import _
 from granum.crystallization.equipment.brines import Salts, salts_of
 from granum.crystallization.equipment.roles import Roles, roles, with_crystals
-from granum.materials.brines import Boiling
+from granum.materials.brines import DRIEST, Boiling
 from granum.materials.fluids import Fluid
 from granum.materials.solutes import Branch
 from granum.numerics import find_root
@@ -30,7 +30,6 @@ from granum.streams.from_materials import activity_laws, solute_system
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
-DRIEST = 0.999  # of the solvent, which never boils off wholly
 SPAN = 80.0  # K above the boiling point of the solvent within which a solution is sought that boils
 
 

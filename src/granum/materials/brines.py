@@ -35,6 +35,7 @@ from granum.numerics.complementarity import find_complementary
 SOLVENT = "water"
 TRACE = 1e-10  # mol of each ion per kg of water, so that none is ever absent
 BESIDE = 5.0  # K within a stable range from which the solubility product goes on beyond it
+DRIEST = 0.999  # of the solvent, which never boils off wholly
 LEAST = 2e-4  # of the water there is, which crystals and vapor always leave
 FIRST = 3.0  # K of elevation, from which a boiling point is sought
 NEAR = 0.5  # of the solubility of a salt alone, from which equilibrium is sought

@@ -10,12 +10,17 @@ import jax.numpy as jnp
 from granum.core.errors import CaseError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
-from granum.crystallization.equipment.roles import Roles
+from granum.crystallization.equipment.beside import solubility_beside, water_activity_beside
+from granum.crystallization.equipment.roles import Roles, feed_of
+from granum.crystallization.vessels.crystals import crystals_at
+from granum.crystallization.vessels.msmpr import saturated_liquor
+from granum.materials.brines import DRIEST
 from granum.materials.fluids import Fluid
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.streams.from_materials import activity_laws
 from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream
 
 SPAN = 80.0  # K above the boiling point of the solvent within which a solution is sought that boils
 NOT_FOUND = "No temperature was found at which the saturated solution boils: check pressure and solubility."
@@ -93,3 +98,46 @@ def boiling_of(
             ).format(solutes=mixture.liquids[found.solute].name)
         )
     return Boiling(mixture.materials.fluid(name), solubility, law, coefficients)
+
+
+def flashed(feed: Stream, found: Roles, heat: Any, temperature: Any) -> tuple[Any, Any]:
+    """Solvent that feed and heat (W) evaporate at a temperature, kg/s, and what is added to it per kg of
+    crystals formed.
+    """
+    mixture, T = feed.mixture, temperature
+    liquid, solid, gas = (mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
+    latent = gas[found.vapor] - liquid[found.solvent]
+    x = found.solute_fraction
+    released = x * liquid[found.solute] + (1.0 - x) * liquid[found.solvent] - solid[found.solid]
+    return (feed.enthalpy_flow - feed.enthalpy_at(T) + heat) / latent, released / latent
+
+
+def temperature_beside(
+    law: Boiling, feed: Stream, found: Roles, pressure: Any, heat: Any, card: Any
+) -> Any | None:
+    """Temperature (K) at which the liquor boils that a flash leaves of a feed, with the other salts as
+    concentrated as they are then; None where there are none, or what they do is not known.
+    """
+    mixture, x = feed.mixture, found.solute_fraction
+    if water_activity_beside(mixture, found, feed.liquid, feed.temperature) is None:
+        return None
+    entering, goal = feed_of(feed, found), jnp.log(jnp.asarray(pressure, dtype=float))
+    total = jnp.sum(entering.crystals)
+
+    def excess(T: Any, goal: Any) -> Any:
+        first, per_crystal = flashed(feed, found, heat, T)
+        bound = 1.0 - x + per_crystal
+        solute = entering.solute + x * total
+        solvent = entering.solvent - jnp.clip(first, 0.0, DRIEST * entering.solvent) + bound * total
+        soluble = solubility_beside(law.solubility, mixture, found, feed.liquid, T)
+        saturated, _at = saturated_liquor(soluble, T, solute, solvent, x, bound)
+        crystals = jnp.maximum(crystals_at(solute, solvent, saturated, x, bound), 0.0)
+        left = (solute - x * crystals, jnp.maximum(solvent - bound * crystals, 1e-3 * entering.solvent))
+        liquid = feed.liquid.at[found.solute].set(left[0]).at[found.solvent].set(left[1])
+        activity = water_activity_beside(mixture, found, liquid, T)
+        return jnp.log(law.solvent.vapor_pressure.value(T)) + jnp.log(activity) - goal
+
+    low = law.pure(pressure)
+    root = find_root(excess, low - 1.0, low + SPAN, goal, start=low + 2.0)
+    unsolved(root.converged, card, reason=NOT_FOUND)
+    return root.value

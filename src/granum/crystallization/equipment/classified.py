@@ -35,6 +35,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.crystallization.equipment.beside import solubility_beside
+from granum.crystallization.equipment.colliding import Colliding
 from granum.crystallization.equipment.in_time import Crystallized
 from granum.crystallization.equipment.msmpr import Evaporative
 from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, saturated_at
@@ -84,7 +85,7 @@ class ClassifiedFigures(NamedTuple):
     equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau},\quad "
     r"v_t(L_f) = \frac{(R-1)\dot V}{A_b}",
 )
-class ClassifiedCrystallizer(Evaporative):
+class ClassifiedCrystallizer(Colliding, Evaporative):
     """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts
     (R–Z model).
 
@@ -130,7 +131,7 @@ class ClassifiedCrystallizer(Evaporative):
         """Liquor drawn off behind the baffle beside the product, m³/s."""
         entering = feed_of(feed, found)
         crystal = crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor)
-        flow = self._liquor(feed, found)(entering.solute, entering.solvent - evaporation)
+        flow = self._liquor(feed, found, self.temperature)(entering.solute, entering.solvent - evaporation)
         return jnp.maximum(self.fines_removal_ratio - 1.0, 0.0) * (
             flow + jnp.sum(entering.crystals) / crystal.density
         )
@@ -168,7 +169,7 @@ class ClassifiedCrystallizer(Evaporative):
         self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
     ) -> ClassifiedFigures:
         found = inside[1]
-        evaporation, _more = self._evaporation(feed, found)
+        evaporation, _more = self._evaporation(feed, found, self.temperature)
         removal = self._removal(feed, found, evaporation)
         baffle, leg = self._upflows(feed, found, evaporation)
         return ClassifiedFigures(

@@ -16,8 +16,8 @@ BreakageLaw = Annotated[Any, Law("breakage_law")]
 
 UNSOLVED_CROWD = (
     "No steady suspension was found in which the crystals made are those that the balance leaves: they meet "
-    "or break too often. Check the unit of the kernel, give larger size classes, or a smaller kernel or "
-    "breakage frequency."
+    "or break too often. Check the unit of the kernel, give larger size classes, a smaller kernel or "
+    "breakage frequency, or a 'breakage_law' where they only meet."
 )
 
 

@@ -85,17 +85,14 @@ class InTime(Dynamic):
     def inside(self, feed: Stream) -> tuple[SteadyState, Roles]: ...
 
     @abstractmethod
-    def held_at(self, mixture: Any) -> Any:
-        """Temperature inside, K."""
+    def held_at(self, mixture: Any, feed: Stream | None = None) -> Any:
+        """Temperature inside with a feed, K; without one, with nothing but solute and solvent."""
 
     @abstractmethod
     def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream: ...
 
     @abstractmethod
-    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]: ...
-
-    def _crystal(self, mixture: Any, found: Roles) -> Crystal:
-        return crystal_of(mixture, found, self.held_at(mixture), self.volume_shape_factor)
+    def _evaporation(self, feed: Stream, found: Roles, temperature: Any) -> tuple[Any, Any]: ...
 
     @abstractmethod
     def steady_only(self) -> None:
@@ -104,8 +101,8 @@ class InTime(Dynamic):
     def initial_holdup(self, mixture: Any) -> Held:
         self.steady_only()
         found = roles(mixture, self.solid, self.solvent)
-        crystal, x = self._crystal(mixture, found), found.solute_fraction
-        T = self.held_at(mixture)
+        x, T = found.solute_fraction, self.held_at(mixture)
+        crystal = crystal_of(mixture, found, T, self.volume_shape_factor)
         ratio, density = self.solubility(T), mixture.densities("liquids", T)
         seeds = SOWN * self.volume
         solvent = (self.volume - seeds / crystal.density) / (
@@ -142,7 +139,8 @@ class InTime(Dynamic):
         self.steady_only()
         feed = inlets["feed"]
         state, found = self.inside(feed)
-        crystal, x = self._crystal(feed.mixture, found), found.solute_fraction
+        crystal = crystal_of(feed.mixture, found, state.temperature, self.volume_shape_factor)
+        x = found.solute_fraction
         numbers, sizes = packets_of(feed_of(feed, found).crystals, jnp.asarray(feed.mixture.edges), crystal)
         time, made = state.residence_time, jnp.sum(state.crystals)
         born = state.nucleation_rate * self.volume
@@ -175,8 +173,9 @@ class InTime(Dynamic):
         """
         then, now = before["feed"], after["feed"]
         mixture, found = now.mixture, roles(now.mixture, self.solid, self.solvent)
-        crystal, x = self._crystal(mixture, found), found.solute_fraction
-        cube, T = crystal.mass_per_cube, jnp.asarray(self.held_at(mixture), dtype=float)
+        T = jnp.asarray(self.held_at(mixture, now), dtype=float)
+        crystal, x = crystal_of(mixture, found, T, self.volume_shape_factor), found.solute_fraction
+        cube = crystal.mass_per_cube
         densities, solids = mixture.densities("liquids", T), mixture.densities("solids", T)
 
         def volume(liquid: Any, solid: Any) -> Any:
@@ -222,7 +221,7 @@ class InTime(Dynamic):
             _ratio, _saturated, rate, births = model.conditions(there, cube * moments[3])
             return cube * (3.0 * rate * moments[2] + births * self.nucleus_size**3)
 
-        first, per_crystal = self._evaporation(now, found)
+        first, per_crystal = self._evaporation(now, found, T)
         evaporation = first + per_crystal * forming(here, state.liquid, state.crystals)
         gained = (entered(then) + entered(now)).at[found.solvent].add(-state.evaporation - evaporation)
         liquid = (state.liquid * lead + 0.5 * step * gained) / lag
@@ -265,12 +264,11 @@ class InTime(Dynamic):
             )
         level = lag / (1.0 + 0.5 * step * turnover)
         state = self._held(mixture, made.kept(level), liquid * level, solid * level, turnover, evaporation)
-        return state, self._outlets(state, now, found, cube, bound * level)
+        return state, self._outlets(state, now, found, T, cube, bound * level)
 
-    def _outlets(self, state: Held, now: Stream, found: Roles, cube: Any, bound: Any) -> Crystallized:
+    def _outlets(self, state: Held, now: Stream, found: Roles, T: Any, cube: Any, bound: Any) -> Crystallized:
         grown = with_crystals(now, found, cube * state.crystals.cubes_in(now.mixture.edges))
         solid = state.solid.at[found.solid].set(grown[found.solid])
-        T = jnp.asarray(self.held_at(now.mixture), dtype=float)
         product = now.replace(
             solid=solid * state.turnover,
             liquid=(state.liquid - bound) * state.turnover,

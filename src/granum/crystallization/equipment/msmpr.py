@@ -42,7 +42,7 @@ from granum.crystallization.equipment.beside import (
     solubility_beside,
     water_activity_beside,
 )
-from granum.crystallization.equipment.boiling import Boiling, boiling_of
+from granum.crystallization.equipment.boiling import Boiling, boiling_of, flashed, temperature_beside
 from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
@@ -57,6 +57,7 @@ from granum.crystallization.equipment.roles import (
 )
 from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.kinds import Growth, Nucleation, Solubility, VesselVolume
+from granum.crystallization.population.grid import Collisions
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.mixture import Mixture
@@ -135,7 +136,7 @@ STEADY: Limits = {
 }
 
 
-class _Continuous(Colliding, Stirred, Unit):
+class _Continuous(Stirred, Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
     temperature: Temperature
@@ -158,17 +159,16 @@ class _Continuous(Colliding, Stirred, Unit):
 
     utilities: ClassVar[Utilities] = STIRRED | HEATED | COOLED
 
-    def _liquor(self, feed: Stream, found: Roles) -> AdditiveVolumes:
+    def _liquor(self, feed: Stream, found: Roles, temperature: Any) -> AdditiveVolumes:
         """Volume flow of the mother liquor."""
-        densities = feed.mixture.densities("liquids", self.held_at(feed.mixture))
+        densities = feed.mixture.densities("liquids", temperature)
         volumes = feed.liquid / densities
         others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
         return AdditiveVolumes(densities[found.solute], densities[found.solvent], others)
 
-    def _steady(self, feed: Stream, found: Roles, evaporation: Any, per_crystal: Any) -> Any:
-        """The steady suspension."""
-        T = self.held_at(feed.mixture)
-        left = None
+    def _steady(self, feed: Stream, found: Roles, temperature: Any, given_off: tuple[Any, Any]) -> Any:
+        """The steady suspension; what evaporates is given as by ``_evaporation``."""
+        T, (evaporation, per_crystal), left = temperature, given_off, None
         if keeps_solvent(found) and isinstance(per_crystal, float):
             left = feed.liquid[found.solvent] - evaporation
         soluble = solubility_beside(self.solubility, feed.mixture, found, feed.liquid, T, left)
@@ -180,7 +180,7 @@ class _Continuous(Colliding, Stirred, Unit):
             self.growth,
             self.nucleation,
             crystal_of(feed.mixture, found, T, self.volume_shape_factor),
-            self._liquor(feed, found),
+            self._liquor(feed, found, T),
             feed.mixture.edges,
             evaporation,
             per_crystal,
@@ -197,23 +197,24 @@ class _Continuous(Colliding, Stirred, Unit):
         """The steady suspension, and which species plays which part."""
         found = roles(feed.mixture, self.solid, self.solvent)
         # once more where its flags are heard: inside what is compiled they are lost
-        self.solubility(self.held_at(feed.mixture))
-        state = self._steady(feed, found, *self._evaporation(feed, found))
+        T = self.held_at(feed.mixture, feed)
+        self.solubility(T)
+        state = self._steady(feed, found, T, self._evaporation(feed, found, T))
         reason = _UNSOLVED if self.collisions is None else UNSOLVED_CROWD
         unsolved(state.converged, type(self).card, reason=reason)
-        there = self.held_at(feed.mixture), state.solute_per_solvent, state.solvent
+        there = T, state.solute_per_solvent, state.solvent
         heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         return state, found
 
     def outlets(self, inside: tuple[SteadyState, Roles], feed: Stream) -> Crystallized:
         state, found = inside
-        T = self.held_at(feed.mixture)
+        T = jnp.asarray(state.temperature, dtype=float)
         liquid = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
         product = feed.replace(
             solid=self._solid(feed, found, state),
             liquid=liquid,
             gas=0.0 * feed.gas,
-            temperature=jnp.asarray(T, dtype=float),
+            temperature=T,
         )
         vapor = self._vapor(given_off(feed, found, state.evaporation, T), product, found)
         if found.vapor is not None:
@@ -268,8 +269,8 @@ class _Continuous(Colliding, Stirred, Unit):
         duty, T = outlets.heat_duty, outlets.product.temperature
         return heated(duty, T) | cooled(duty, T) | self.stirrer_power(outlets.product, self.volume)
 
-    def held_at(self, mixture: Mixture) -> Any:
-        """Temperature inside, K."""
+    def held_at(self, mixture: Mixture, feed: Stream | None = None) -> Any:
+        """Temperature inside with a feed, K; without one, with nothing but solute and solvent."""
         return self.temperature
 
     def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream:
@@ -280,8 +281,13 @@ class _Continuous(Colliding, Stirred, Unit):
         """Fines dissolved and product classified; none by default."""
         return None
 
+    @property
+    def collisions(self) -> Collisions | None:
+        """What crystals do to each other; nothing by default."""
+        return None
+
     @abstractmethod
-    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
+    def _evaporation(self, feed: Stream, found: Roles, temperature: Any) -> tuple[Any, Any]:
         """Solvent evaporated, kg/s, and what is added to it per kg of crystals formed."""
 
 
@@ -290,7 +296,7 @@ class Evaporative(_Continuous):
 
     evaporation: MassFlow = eqx.field(kw_only=True, default=0.0)
 
-    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
+    def _evaporation(self, feed: Stream, found: Roles, temperature: Any) -> tuple[Any, Any]:
         if found.vapor is not None:
             return self.evaporation, 0.0
         if not is_tracer(self.evaporation) and float(self.evaporation) != 0.0:
@@ -313,7 +319,7 @@ class _Evaporating(Evaporative):
     title="Continuous crystallizer, cooled or evaporative (MSMPR)",
     equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)",
 )
-class Msmpr(_Evaporating, InTime):
+class Msmpr(Colliding, _Evaporating, InTime):
     """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and
     evaporation.
 
@@ -334,7 +340,7 @@ class Msmpr(_Evaporating, InTime):
     title="Continuous vacuum crystallizer (adiabatic flash)",
     equation=r"\dot H_{feed} + \dot Q = \dot H_{product} + \dot H_{vapor}",
 )
-class VacuumCrystallizer(_Continuous, InTime):
+class VacuumCrystallizer(Colliding, _Continuous, InTime):
     """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to
     foul.
 
@@ -342,9 +348,10 @@ class VacuumCrystallizer(_Continuous, InTime):
     adiabatic flash). Either the temperature is given and the pressure that must be held follows, or the other
     way round: the saturated mother liquor boils there. The elevation is that of the library's water activity,
     or of two coefficients over the mass fraction of solute; it counts as none at a given temperature where
-    neither is there. At a given temperature other salts that are known as ions raise it too; at a given
-    pressure they do not, which a note tells, nor does the supersaturation. An ejector is needed where
-    cooling water condenses nothing, below 35 °C.
+    neither is there. Other salts that are known as ions raise it too, as much as they are concentrated in
+    the liquor that is left; the supersaturation does not. In a run in time the temperature is the one of a
+    liquor that has settled to the feed of the moment. An ejector is needed where cooling water condenses
+    nothing, below 35 °C.
     """
 
     temperature: Temperature | None = eqx.field(kw_only=True, default=None)
@@ -370,12 +377,16 @@ class VacuumCrystallizer(_Continuous, InTime):
         given = (self.elevation_linear, self.elevation_quadratic)
         return boiling_of(mixture, found, self.solubility, given, needed=self.pressure is not None)
 
-    def held_at(self, mixture: Mixture) -> Any:
+    def held_at(self, mixture: Mixture, feed: Stream | None = None) -> Any:
         if self.temperature is not None:
             return self.temperature
-        law = self._boiling(mixture)
+        law, card = self._boiling(mixture), type(self).card
         assert law is not None
-        return law.temperature(self.pressure, type(self).card)
+        if feed is None or law.coefficients is not None:
+            return law.temperature(self.pressure, card)
+        found = roles(mixture, self.solid, self.solvent)
+        beside = temperature_beside(law, feed, found, self.pressure, self.heat_duty, card)
+        return law.temperature(self.pressure, card) if beside is None else beside
 
     def _vapor(self, vapor: Stream, product: Stream, found: Roles) -> Stream:
         law = self._boiling(product.mixture)
@@ -395,7 +406,7 @@ class VacuumCrystallizer(_Continuous, InTime):
         share = others_per_solvent(made[1], feed.liquid)
         given = self.elevation_linear is not None or self.elevation_quadratic is not None
         known = water_activity_beside(feed.mixture, made[1], feed.liquid, feed.temperature) is not None
-        if not given and (self.pressure is not None or not known):
+        if not given and not known:
             about = share > TOLD, share, "boiling_point_elevation", type(self).card.key
             flags.record(flags.EXTRAPOLATED, *about, reason=LIFTED)
         return made
@@ -432,12 +443,7 @@ class VacuumCrystallizer(_Continuous, InTime):
         ratio = figures.ejector_pressure_ratio
         return super().measured(inside, outlets, figures, feed) | {"ejector": ratio}
 
-    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
+    def _evaporation(self, feed: Stream, found: Roles, temperature: Any) -> tuple[Any, Any]:
         if found.vapor is None:
             raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
-        m, T = feed.mixture, self.held_at(feed.mixture)
-        liquid, solid, gas = (m.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
-        latent = gas[found.vapor] - liquid[found.solvent]
-        x = found.solute_fraction
-        released = x * liquid[found.solute] + (1.0 - x) * liquid[found.solvent] - solid[found.solid]
-        return (feed.enthalpy_flow - feed.enthalpy_at(T) + self.heat_duty) / latent, released / latent
+        return flashed(feed, found, self.heat_duty, temperature)

@@ -337,8 +337,10 @@ class NeedleCrystallizer(Evaporative):
 
     known_axes: ClassVar[tuple[str, ...]] = (AXIS,)
 
-    def _steady(self, feed: Stream, found: Roles, evaporation: Any, per_crystal: Any) -> SteadyNeedles:
-        T = self.held_at(feed.mixture)
+    def _steady(
+        self, feed: Stream, found: Roles, temperature: Any, given_off: tuple[Any, Any]
+    ) -> SteadyNeedles:
+        T, (evaporation, _per_crystal) = temperature, given_off
         crystal = crystal_of(feed.mixture, found, T, self.volume_shape_factor)
         left = feed.liquid[found.solvent] - evaporation if keeps_solvent(found) else None
         soluble = solubility_beside(self.solubility, feed.mixture, found, feed.liquid, T, left)
@@ -354,7 +356,7 @@ class NeedleCrystallizer(Evaporative):
             self.growth_width,
         )
         entering = _entering(feed, found, self.seed_aspect_ratio, self.volume_shape_factor)
-        liquor = self._liquor(feed, found)
+        liquor = self._liquor(feed, found, T)
         return steady_needles(needles, feed_of(feed, found), entering, T, self.volume, liquor, evaporation)
 
     def _solid(self, feed: Stream, found: Roles, state: SteadyNeedles) -> Any:

@@ -165,17 +165,19 @@ def sorted_into(numbers: Any, cubes: Any, low: Any) -> tuple[Any, Any]:
 
 
 class Events(NamedTuple):
-    """Newborn per second at the lower end of each class: by agglomeration, and by breakage for the number and
-    for the cubes of each class (columns); and how often a crystal of a class disappears, 1/s.
+    """Newborn per second at the lower end of each class: by agglomeration, its slopes with the number and the
+    cubes of each class (columns; less what is lost more), and for these by breakage; and how often a crystal
+    of a class disappears, 1/s.
     """
 
     joined: Any
-    broken: tuple[Any, Any] | None
+    slopes: tuple[Any, Any]
+    broken: tuple[Any, Any]
     lost: Any
 
 
 def events(collisions: Collisions, numbers: Any, cubes: Any, low: Any, high: Any, volume: Any) -> Events:
-    """What becomes of the crystals in classes from nothing to open.
+    """What becomes of the crystals in classes from nothing to open, near a population.
 
     The crystals of a class stand at its two ends, as many at each as number and volume want, and so do the
     newborn at those of theirs. Number gives way to volume beyond the lower end of the last class.
@@ -183,23 +185,20 @@ def events(collisions: Collisions, numbers: Any, cubes: Any, low: Any, high: Any
     n, p = low.shape[0], low**3
     q = jnp.append(p[1:], 27.0 * p[-1])
     size = jnp.append(jnp.append(0.5 * low[1], jnp.sqrt(low[1:-1] * low[2:])), 1.5 * low[-1])
-    near, far = safe_divide(numbers * q - cubes, q - p, numbers), safe_divide(cubes - numbers * p, q - p, 0.0)
-    joined, broken, lost = jnp.zeros(n), None, jnp.zeros(n)
+    joined, lost, none = jnp.zeros(n), jnp.zeros(n), (jnp.zeros((n, n)), jnp.zeros((n, n)))
+    slopes, broken = none, none
     if collisions.agglomeration is not None:
+        near = safe_divide(numbers * q - cubes, q - p, numbers)
+        far = safe_divide(cubes - numbers * p, q - p, 0.0)
         kernel = collisions.agglomeration(size[:, None], size[None, :]) / volume
-        j, k = jnp.triu_indices(n)
-        rate = kernel[j, k] * jnp.where(j == k, 0.5, 1.0)
-        pairs = [
-            (a[j] * b[k], x[j] + y[k]) for a, x in ((near, p), (far, q)) for b, y in ((near, p), (far, q))
-        ]
-        met, made = (jnp.concatenate(parts) for parts in zip(*pairs, strict=True))
-        met = jnp.tile(rate, 4) * met * jnp.maximum(made / p[-1], 1.0)
-        made = jnp.minimum(made, p[-1])
-        cell = jnp.clip(jnp.searchsorted(p, made, side="right") - 1, 0, n - 2)
-        up = safe_divide(made - p[cell], p[cell + 1] - p[cell], 0.0)
-        joined = jax.ops.segment_sum(met * (1.0 - up), cell, n)
-        joined = joined + jax.ops.segment_sum(met * up, cell + 1, n)
+        joins = _joins(kernel, near, far, p, q)
+        joined = 0.5 * jnp.sum(joins * jnp.stack([near, far])[:, None, :], axis=(0, 2))
         lost = kernel @ numbers
+        # a class that meets more loses it at its ends too: of the last, which is open, its volume counts
+        more = near[:, None] * kernel
+        more = more.at[1:].add((far[:, None] * kernel)[:-1]).at[-1].add(q[-1] / p[-1] * far[-1] * kernel[-1])
+        by_number = safe_divide(joins[0] * q - joins[1] * p, q - p, joins[0])
+        slopes = by_number - more, safe_divide(joins[1] - joins[0], q - p, 0.0)
     if collisions.breakage is not None:
         rate = collisions.breakage(size)
 
@@ -212,7 +211,29 @@ def events(collisions: Collisions, numbers: Any, cubes: Any, low: Any, high: Any
         first, second = (jax.vmap(fragments_of, out_axes=1)(end) for end in (p, q))
         by_cube = safe_divide(rate, q - p, 0.0) * (second - first)
         broken, lost = (rate * first - by_cube * p, by_cube), lost + rate
-    return Events(joined, broken, lost)
+    return Events(joined, slopes, broken, lost)
+
+
+def _joins(kernel: Any, near: Any, far: Any, p: Any, q: Any) -> Any:
+    """Newborn by class (rows) of those that meet one crystal at the near or the far end of a class (columns),
+    1/s.
+    """
+    n = p.shape[0]
+    j, k = jnp.triu_indices(n)
+    rate = kernel[j, k] * jnp.where(j == k, 0.5, 1.0)
+    found = jnp.zeros(2 * n * n)
+    for x, (a, u) in enumerate(((near, p), (far, q))):
+        for y, (b, v) in enumerate(((near, p), (far, q))):
+            made = u[j] + v[k]
+            often = rate * jnp.maximum(made / p[-1], 1.0)
+            made = jnp.minimum(made, p[-1])
+            cell = jnp.clip(jnp.searchsorted(p, made, side="right") - 1, 0, n - 2)
+            up = safe_divide(made - p[cell], p[cell + 1] - p[cell], 0.0)
+            for end, column, partner in ((x, j, b[k]), (y, k, a[j])):
+                place = (end * n + cell) * n + column
+                found = found.at[place].add(often * partner * (1.0 - up))
+                found = found.at[place + n].add(often * partner * up)
+    return found.reshape(2, n, n)
 
 
 def _shared_out(born: Any, mean: Any, x: Any, live: Any) -> Any:

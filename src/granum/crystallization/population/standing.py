@@ -21,6 +21,8 @@ CLASSES = 64
 FINEST, COARSEST = 0.1, 40.0  # of the growth in one residence time
 WIDEST = 1e3  # m, end of the last class, which is open
 STILL = 1e-15  # m, for a growth length of nothing
+SLOPES = 0.5, 0.9, 1.0  # of what meets, the last one that leads to no fewer crystals than none
+LESS = 1e-9  # of the most in a class, below nothing
 SPENT = 600.0  # exponent beyond which nothing survives
 NODES, WEIGHTS = (0.5 * v for v in np.polynomial.legendre.leggauss(8))
 NODES = NODES + 0.5
@@ -106,15 +108,19 @@ def round_of(
     sizes: Any,
     growth: Any,
     volume: Any,
+    cautious: Any = False,
 ) -> Standing:
     """The population that the collisions with another one (numbers and cubes by class) leave; the steady one
     reproduces itself.
 
-    Breakage is of this population, which leaves a linear balance; only what meets is of the one before.
+    Breakage is of this population, which leaves a linear balance. What meets is a square of the population:
+    it is that of the one before and its slope there (Newton's method), its losses those of the one before,
+    and what they would be more or less counts as born or unborn.
 
     Parameters
     ----------
-    numbers, sizes: nuclei and seeds, 1/s and m. growth: m/s. volume: m³.
+    numbers, sizes: nuclei and seeds, 1/s and m. growth: m/s. volume: m³. cautious: whether less of the slope
+    is taken where it leads to fewer crystals than none, as it may far from the steady population.
     """
     low, high, rates, _shares = classes
     met = events(collisions, *before, low, high, volume)
@@ -129,14 +135,28 @@ def round_of(
     grown = _surviving(place[:, None] >= place, ages[:, None] - ages[None, :])
     since = ages + emptied * (entry - low) / speed
     passing = _surviving(place[:, None] > place, ages[:, None] - since[None, :]) @ entering
-    newborn = met.joined
-    if met.broken is not None:
-        alone = [a * passing + b * entering for a, b in zip(first, second, strict=True)]
-        onward = sum(part @ (share[:, None] * grown) for part, share in zip(met.broken, first, strict=True))
-        newborn = newborn + sum(part @ there for part, there in zip(met.broken, alone, strict=True))
-        newborn = jnp.linalg.solve(jnp.eye(low.shape[0]) - onward, newborn)
-    passing = passing + grown @ newborn
-    numbers, cubes = (a * passing + b * entering for a, b in zip(first, second, strict=True))
+    alone = [a * passing + b * entering for a, b in zip(first, second, strict=True)]
+
+    def held(newborn: Any) -> tuple[Any, Any, Any]:
+        through = passing + grown @ newborn
+        numbers, cubes = (a * through + b * entering for a, b in zip(first, second, strict=True))
+        return through, numbers, cubes
+
+    def made(joined: Any, slopes: tuple[Any, Any]) -> tuple[Any, Any, Any]:
+        onward = sum(part @ (share[:, None] * grown) for part, share in zip(slopes, first, strict=True))
+        newborn = joined + sum(part @ there for part, there in zip(slopes, alone, strict=True))
+        return held(jnp.linalg.solve(jnp.eye(low.shape[0]) - onward, newborn))
+
+    already = sum(part @ there for part, there in zip(met.slopes, before, strict=True))
+    cautious = jnp.asarray(cautious)
+    found = made(met.joined, met.broken)
+    for share in SLOPES:
+        slopes = tuple(share * a + b for a, b in zip(met.slopes, met.broken, strict=True))
+        steeper = made(met.joined - share * already, slopes)
+        least = [jnp.min(part) + LESS * jnp.max(jnp.abs(part)) for part in steeper[1:]]
+        there = ~cautious | ((least[0] >= 0.0) & (least[1] >= 0.0))
+        found = tuple(jnp.where(there, a, b) for a, b in zip(steeper, found, strict=True))
+    passing, numbers, cubes = found
     return Standing(classes, entry, entering, passing, emptied, speed, numbers, cubes)
 
 

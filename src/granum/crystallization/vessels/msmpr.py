@@ -47,6 +47,7 @@ class Feed(NamedTuple):
 class SteadyState(NamedTuple):
     """A steady continuous crystallizer.
 
+    temperature: K.
     solute_per_solvent, solubility_per_solvent: composition of the mother liquor and at saturation, kg/kg.
     relative_supersaturation: of the mother liquor.
     crystals: product by size class, kg/s; the last class takes the tail beyond the grid.
@@ -58,6 +59,7 @@ class SteadyState(NamedTuple):
     converged: whether the mass balance was closed.
     """
 
+    temperature: Any
     solute_per_solvent: Any
     solubility_per_solvent: Any
     relative_supersaturation: Any
@@ -240,7 +242,7 @@ def steady_msmpr(
             """Crystals in the vessel over those of a product that leaves with the liquor."""
             return safe_divide(jnp.sum(cubes), jnp.sum(grid.shares * cubes), 1.0)
 
-        def next_to(c: Any, born: Any, before: State) -> Standing:
+        def next_to(c: Any, born: Any, before: State, cautious: Any = False) -> Standing:
             product, flow, G, _nuclei, _magma = state(c)
             grid = classes_for(G * volume / flow, flow / volume, 2.0 * edges[-1], outflow)
             magma = held_over(grid, before[1]) * product / flow
@@ -253,6 +255,7 @@ def steady_msmpr(
                 jnp.append(start_sizes, nucleus_size),
                 G,
                 volume,
+                cautious,
             )
 
         def cubes_wanted(c: Any) -> Any:
@@ -277,8 +280,8 @@ def steady_msmpr(
         def at_share(share: Any) -> Any:
             return saturated + share * over
 
-        def following(share: Any, born: Any, before: State) -> State:
-            made = next_to(at_share(share), born, before)
+        def following(share: Any, born: Any, before: State, cautious: Any) -> State:
+            made = next_to(at_share(share), born, before, cautious)
             return made.numbers, made.cubes
 
         crowd = steady_crowd(
@@ -320,6 +323,7 @@ def steady_msmpr(
     left = all_solvent - bound * product
     soluble = at(left)
     return SteadyState(
+        temperature,
         c,
         soluble,
         c / soluble - 1.0,

@@ -228,6 +228,7 @@ class SteadyNeedles(NamedTuple):
     rates: growth of length and width, m/s. solute, solvent, evaporation: kg/s. Others: see ``SteadyState``.
     """
 
+    temperature: Any
     solute_per_solvent: Any
     solubility_per_solvent: Any
     crystals: Lines
@@ -312,6 +313,7 @@ def steady_needles(
     left = all_solvent - (1.0 - x) * product
     soluble = at(left)
     return SteadyNeedles(
+        temperature,
         c,
         soluble,
         lines,

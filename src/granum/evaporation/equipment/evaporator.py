@@ -26,9 +26,10 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.evaporation.boiling import DRIEST, Effect, Liquor, boil, condensed, entrained
+from granum.evaporation.boiling import Effect, Liquor, boil, condensed, entrained
 from granum.evaporation.inside_charts import drawn_boiling
 from granum.evaporation.kinds import EVAPORATION_SOURCE, ThermalResistance
+from granum.materials.brines import DRIEST
 from granum.numerics.smooth import safe_divide
 from granum.particles.size_laws import LogNormal
 from granum.streams.formulas.drives import shaft_power_adiabatic
