@@ -244,3 +244,23 @@ def test_two_salts_crystallize_together_where_both_are_saturated():
     )
     with pytest.raises(CaseError, match="also make"):
         _ = Liquor(mixed, None).salts
+
+
+def test_a_heat_of_dilution_that_matters_is_told():
+    """McCabe, Smith and Harriott's single effect (example 16.3, recalled): caustic soda from 20 to 50 %, by
+    the enthalpy chart 14.456 million Btu/h for 12,000 lb/h of water. Balances without it ask for 5 % less,
+    and say so; of salt brine it does not matter.
+    """
+    one = Evaporator("930 ft2", "100 mmHg", "20 psig", heat_transfer_coefficient="250 BTU/(h ft2 degF)")
+    told = {}
+    for solute, strong in (("sodium hydroxide", 0.2), ("sodium chloride", 0.1)):
+        liquor = mixture_of(["water", solute], [], ["water"], (1e-5, 1e-3))
+        shares = {solute: strong, "water": 1.0 - strong}
+        told[solute] = one.operate(
+            feed=feed(liquor, liquid_flow="20000 lb/h", temperature="100 degF", liquid=shares)
+        )
+    figures = told["sodium hydroxide"].figures
+    per_water = float(figures.heat_duty) / float(figures.evaporation_rate)
+    assert per_water == pytest.approx(0.95 * 14.456e6 * 1055.06 / (12000.0 * 0.45359237), rel=0.01)
+    assert any("Heats of dilution" in reason for reason in reasons(told["sodium hydroxide"]))
+    assert not any("Heats of dilution" in reason for reason in reasons(told["sodium chloride"]))

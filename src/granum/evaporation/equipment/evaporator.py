@@ -227,7 +227,8 @@ class Evaporator(_Single):
     solution with all the water, or from two given coefficients. Where the mixture has a crystal of a solute,
     the product is just saturated and fresh crystals have the given sizes: kinetics are those of the
     crystallizers; of several crystals of that solute the one forms that is stable at the boiling temperature.
-    Heats of dilution and the pressure of the liquid column are left out.
+    The pressure of the liquid column is left out, and so are heats of dilution, which is told where they are
+    more than 2 % of the duty.
     """
 
     def inside(self, feed: Stream) -> tuple[Liquor, Effect, Any]:
