@@ -5,7 +5,7 @@ at once.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, get_type_hints
+from typing import Any, NamedTuple, get_args, get_type_hints
 
 import jax
 import jax.numpy as jnp
@@ -114,9 +114,8 @@ def within(figures: Mapping[str, Any], made: type) -> dict[str, Any]:
     kept = {}
     for name, value in figures.items():
         slack = 1e-12 * jnp.maximum(jnp.abs(jnp.asarray(value)), 1.0)
-        kept[name] = (
-            kind_of(hints[name]).contains(value + slack) | kind_of(hints[name]).contains(value - slack)
-        ) & jnp.isfinite(value)
+        kind = next(k for k in map(kind_of, (hints[name], *get_args(hints[name]))) if k is not None)
+        kept[name] = (kind.contains(value + slack) | kind.contains(value - slack)) & jnp.isfinite(value)
     return kept
 
 

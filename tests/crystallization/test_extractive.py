@@ -90,7 +90,7 @@ def test_what_it_refuses() -> None:
     with pytest.raises(CaseError, match="does not depend on the added liquid"):
         operated(vessel(other_solubility=PolynomialSolubility([0.2])), feed, added)
     with pytest.raises(CaseError, match="cannot be the other solute"):
-        operated(vessel(other_solid="sodium chloride"), feed, added)
+        operated(vessel(solid_solute_other="sodium chloride"), feed, added)
     law = {"law": "library_solubility", "solute": "sucrose"}
     other = {"law": "antisolvent_solubility", "pure_solubility": law, "antisolvent_power": -1.0}
     with pytest.raises(GranumError, match="sucrose"):

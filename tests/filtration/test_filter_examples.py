@@ -42,6 +42,6 @@ def test_wash_of_crystals_costs_what_the_solubility_says():
     # 150 kg/h of water at 316 g/kg; the mother liquor of 24 % by mass is within 0.1 % of saturation
     found = read(EXAMPLES / "filters/crystals.toml").solve()
     assert found.figure("belt.dissolved_share") == pytest.approx(150 * 0.316 / 900, rel=0.01)
-    # heat of solution of potassium nitrate, 345 kJ/kg, against the heat capacities of cake and liquor
+    # heat of solution of potassium nitrate at saturation, 205 kJ/kg, against what cake and liquor hold
     cooled = 293.15 - float(found.streams["belt.cake"].temperature)
-    assert 4.5 < cooled < 7.0
+    assert 2.7 < cooled < 4.2

@@ -114,6 +114,7 @@ ENGLISH = {
 OF_MIXTURE = {
     "solid": ("solids",),
     "other_solid": ("solids",),
+    "solid_solute_other": ("solids",),
     "solvent": ("liquids",),
     "second_solvent": ("liquids",),
     "impurity": ("liquids",),

@@ -61,7 +61,7 @@ class ExtractiveFigures(NamedTuple):
     residence_time: Time
     mass_median_size: Distance
     heat_duty: Power
-    crystal_flow_other: MassFlow
+    crystal_flow_solute_other: MassFlow
     purity: MassFraction
     saturation_other: Ratio
 
@@ -85,7 +85,7 @@ class ExtractiveCrystallizer(AntisolventCrystallizer):
     """
 
     other_solubility: Solubility = eqx.field(kw_only=True)
-    other_solid: str = eqx.field(kw_only=True, static=True, default="")
+    solid_solute_other: str = eqx.field(kw_only=True, static=True, default="")
     crystal_size: Length = eqx.field(kw_only=True, default=200e-6)
     geometric_standard_deviation: Annotated[PositiveNumber, Within(1.01, 10.0)] = eqx.field(
         kw_only=True, default=1.5
@@ -97,7 +97,7 @@ class ExtractiveCrystallizer(AntisolventCrystallizer):
 
     def _other(self, mixture: Mixture, wanted: Roles, second: int) -> Roles:
         """Who plays which part for the other solute."""
-        name = self.other_solid
+        name = self.solid_solute_other
         if not name:
             dissolved = {s.name for i, s in enumerate(mixture.liquids) if i not in (*wanted[1:3], second)}
             rest = [
@@ -109,7 +109,7 @@ class ExtractiveCrystallizer(AntisolventCrystallizer):
                 raise CaseError(
                     _(
                         "Which crystal is the other solute's? Beside the wanted one the mixture has "
-                        "{solids}: name one as 'other_solid'."
+                        "{solids}: name one as 'solid_solute_other'."
                     ).format(solids=", ".join(rest) or "—")
                 )
             name = rest[0]
