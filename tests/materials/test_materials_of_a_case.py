@@ -12,7 +12,7 @@ import granum
 from granum import materials
 from granum.cases import alone, read_text
 from granum.core.errors import InputError
-from granum.materials.library import SHIPPED
+from granum.materials.library import SHIPPED, session
 
 CASE = """
 title = "A tank"
@@ -135,3 +135,15 @@ def test_what_is_wrong_with_a_described_material_is_told(change: tuple[str, str]
     with pytest.raises(InputError) as told:
         read_text(text)
     assert message in told.value.message
+
+
+def test_a_further_name_of_the_library_may_be_ones_own() -> None:
+    """Sand is another word for quartz until a case describes its own."""
+    assert session().solid("sand").name == "quartz"
+    tables = {"solid": {"sand": {"density": "2600 kg/m3", "heat_capacity": "0.8 kJ/(kg K)"}}}
+    mine = session().with_own([tables])
+    assert mine.solid("sand").name == "sand"
+    assert float(mine.solid("sand").density(300.0)) == pytest.approx(2600.0)
+    assert mine.solid("silica").name == "quartz"
+    with pytest.raises(InputError, match="already the name"):
+        session().with_own([{"solid": {"quartz": tables["solid"]["sand"]}}]).solid("quartz")

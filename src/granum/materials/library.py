@@ -115,8 +115,10 @@ class Library:
         given = dict.fromkeys((*self.own, *map(_Own.of, further)))
         library = Library(tuple(given)) if len(given) > len(self.own) else self
         for sort in _SORTS:
-            for word in library._entries[sort].keys() - self._entries[sort].keys():
-                getattr(library, sort)(word)
+            before = self._entries[sort]
+            for word, item in library._entries[sort].items():
+                if item is not before.get(word):
+                    getattr(library, sort)(word)
         return library
 
     @cached_property
@@ -125,7 +127,7 @@ class Library:
             return _shipped()
         known = {sort: dict(found) for sort, found in _shipped().items()}
         for own in self.own:
-            _merge(known, own.content(), own.place)
+            _merge(known, own.content(), own.place, own=True)
         return known
 
     @cached_property
@@ -135,7 +137,7 @@ class Library:
     def _find(self, sort: str, name: str, build: Callable[[str, Any], Any]) -> Any:
         key, entry = self.entry(sort, name)
         if (sort, key) not in self._made:
-            shipped = key in _shipped()[sort] and self is not SHIPPED
+            shipped = self is not SHIPPED and _shipped()[sort].get(key, (key, None))[1] is entry
             self._made[sort, key] = getattr(SHIPPED, sort)(key) if shipped else build(key, entry)
         return self._made[sort, key]
 
@@ -226,13 +228,17 @@ def _shipped() -> Entries:
     return found
 
 
-def _merge(into: Entries, content: dict[str, Any], where: str) -> None:
-    """Add a file's checked entries, and their aliases as references to them."""
+def _merge(into: Entries, content: dict[str, Any], where: str, own: bool = False) -> None:
+    """Add a file's checked entries, and their aliases as references to them. One of one's ``own`` may take
+    what is only a further name of one that came with Granum.
+    """
     parsed = read_materials(content, where)
     for sort in into:
         for name, entry in getattr(parsed, sort).items():
             for word in dict.fromkeys((name, *entry.aliases)):
-                if word in into[sort]:
+                known = into[sort].get(word)
+                lent = own and known is not None and known[0] != word and known[0] in _shipped()[sort]
+                if known is not None and not lent:
                     raise InputError(
                         _("{place}: '{name}' is already the name of a {sort}; choose another.").format(
                             place=where, name=word, sort=sort
