@@ -203,3 +203,8 @@ def test_circulating_load_of_the_circuit_by_sieve_and_by_balance(run) -> None:
 
 def test_the_example_runs() -> None:
     runpy.run_path(str(CIRCUIT.parent / "grinding_circuit.py"))
+
+
+def test_a_power_and_a_work_index_are_not_both_taken() -> None:
+    with pytest.raises(InputError, match="one of the two"):
+        ConeCrusher(5e-4, 2e-3, AustinBreakage(0.5, 0.8, 4.0), shaft_power=1e4, work_index=4.2e4)

@@ -96,7 +96,7 @@ def test_agglomeration_alone_against_the_closed_form(monkeypatch, T: float):
     below = np.cumsum(cubes) / float(jnp.sum(cubes))
     for at in np.array([0.5, 1.0, 2.0, 4.0, 8.0]) * (1 + 2 * T) / 3:
         found = np.interp((at * mean) ** (1 / 3), np.asarray(classes.high), below)
-        assert found == pytest.approx(quad(volume, 0, at)[0], abs=0.025)
+        assert found == pytest.approx(quad(volume, 0, at)[0], abs=0.02 if T < 100 else 0.025)
 
 
 def test_number_that_breakage_makes():

@@ -114,10 +114,12 @@ def test_what_dissolves_better_when_warm_gives_off_heat_as_it_crystallizes():
     for name in (NACL, KCL, MGCL2, "sodium sulfate"):
         law = session().solute(name)
         assert float(law.value(300.0) - law.value(290.0)) > 0.0
-        found = heat_of_solution(ROOM, 0.1, first_salt=name)
+        # the one curve that is steep is met in its middle
+        T, within = ("18 degC", 0.03) if name == "sodium sulfate" else (ROOM, 2e-3)
+        found = heat_of_solution(T, 0.1, first_salt=name)
         assert float(found.heat_of_crystallization) > 0.0
         assert float(found.heat_of_crystallization_balance) == pytest.approx(
-            float(found.heat_of_crystallization), rel=0.05
+            float(found.heat_of_crystallization), rel=within
         )
 
 

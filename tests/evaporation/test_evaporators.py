@@ -261,6 +261,7 @@ def test_a_heat_of_dilution_that_matters_is_told():
         )
     figures = told["sodium hydroxide"].figures
     per_water = float(figures.heat_duty) / float(figures.evaporation_rate)
-    assert per_water == pytest.approx(0.95 * 14.456e6 * 1055.06 / (12000.0 * 0.45359237), rel=0.01)
+    chart = 14.456e6 * 1055.06 / (12000.0 * 0.45359237)
+    assert 0.92 * chart < per_water < 0.98 * chart
     assert any("Heats of dilution" in reason for reason in reasons(told["sodium hydroxide"]))
     assert not any("Heats of dilution" in reason for reason in reasons(told["sodium chloride"]))

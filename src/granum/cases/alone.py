@@ -84,6 +84,11 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
     for word, displaced in thing.instead.items():
         if (words or {}).get(word, "") != "" and displaced not in (words or {}):
             own.pop(displaced, None)
+    for port, feed in feeds.items():  # a moisture that was typed stands for the liquid of the example
+        if any(f"{port}.{moisture}" in (words or {}) for moisture in MOISTURES):
+            for word in ("liquid_flow", "solids_mass_fraction"):
+                if f"{port}.{word}" not in (words or {}):
+                    feed.pop(word, None)
     _drop_what_is_gone(mixture, feeds, words or {})
     _drop_laws_of({name for _phase, name in before - _present(mixture)}, own, words or {})
     for port, feed in feeds.items():
@@ -132,9 +137,6 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
             if field in these and value != "" and any(other in feed for other in others):
                 # the flow of the example said this way, so that what is not said stays
                 feed |= said({other: feed.pop(other) for other in (*others, *MOISTURES) if other in feed})
-        in_place = ("liquid_flow", "solids_mass_fraction")
-        for gone in (*in_place, *MOISTURES) if field in MOISTURES else MOISTURES if field in in_place else ():
-            feed.pop(gone, None)
         if value == "":
             feed.pop(rest, None)
         else:

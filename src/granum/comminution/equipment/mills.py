@@ -68,6 +68,17 @@ def _power(shaft_power: Any, work_index: Any, feed: Stream, ground: Stream) -> A
     return feed.solid_flow * specific_energy_bond.function(coarse, fine, work_index)
 
 
+INSTEAD = {"work_index": "shaft_power", "shaft_power": "work_index"}
+
+
+def _one_power(unit: BallMill | ConeCrusher) -> None:
+    if unit.shaft_power is not None and unit.work_index is not None:
+        raise InputError(
+            _("The power is given by 'shaft_power' or by 'work_index': give one of the two."),
+            name="work_index",
+        )
+
+
 def _energy(unit: BallMill | ConeCrusher, power: Any, feed: Stream) -> Any:
     """Per mass of solid; None where neither power nor work index is known."""
     known = unit.shaft_power is not None or unit.work_index is not None
@@ -107,7 +118,11 @@ class BallMill(Unit, Dynamic):
     breakage_convention: Convention = "continuous"
     work_index: WorkIndex | None = None
 
+    instead: ClassVar[Mapping[str, str]] = INSTEAD
     utilities: ClassVar[Utilities] = DRIVE
+
+    def __check_init__(self) -> None:
+        _one_power(self)
 
     def _residence_time(self, feed: Stream) -> Any:
         return self.holdup_mass / jnp.maximum(feed.solid_flow, _TINY)
@@ -263,9 +278,11 @@ class ConeCrusher(Unit):
     breakage_convention: Convention = "continuous"
     work_index: WorkIndex | None = None
 
+    instead: ClassVar[Mapping[str, str]] = INSTEAD
     utilities: ClassVar[Utilities] = DRIVE
 
     def __check_init__(self) -> None:
+        _one_power(self)
         low, high = self.always_passing_size, self.always_broken_size
         if isinstance(low, float) and isinstance(high, float) and low >= high:
             raise InputError(
