@@ -33,10 +33,8 @@ from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
 TOLD = 0.02  # of a duty: heats of dilution beyond that are told
-DILUTION = (
-    "Heats of dilution are left out; they are more than 2 % of the duty here. Caustic soda that is thickened "
-    "from 20 to 50 % takes 5 % more steam than this."
-)
+DILUTION = "The heat of dilution of this liquor is left out; it is more than 2 % of the duty here."
+PASSES = 8  # of Newton's method, for what a liquor takes as it thickens
 SPAN = 80.0  # K above the boiling point of the solvent within which a solution is sought that boils
 
 
@@ -186,7 +184,7 @@ class Liquor:
         m, total = self.mixture, jnp.zeros(())
         for i, liquid in enumerate(m.liquids[1:], start=1):
             system = solute_system(m.materials, liquid.name, (self.solvent.name,))
-            if system is None or not is_measured(system):
+            if system is None or system.mixing_law is not None or not is_measured(system):
                 continue
             stable = system.branches[sum(b.stable_from <= REFERENCE for b in system.branches[1:])]
             last = stable.heat_of_crystallization - stable.heat_dilute
@@ -217,23 +215,40 @@ class Liquor:
 
     def split(self, feed: Stream, heat: Any, T: Any) -> _Split:
         """What boils off and crystallizes where feed and heat are brought to a temperature."""
+        given = feed.enthalpy_flow + heat - feed.enthalpy_at(T)
+        if self.mixture.mixing is None:
+            return self._parted(feed, given, T)
+        held = self.mixture.heat_of_mixing(feed.liquid, T)
+
+        def unmixed(taken: Any) -> Any:  # by what the liquor takes as it thickens
+            liquid = self._parted(feed, given - taken, T).liquid
+            return taken + held - self.mixture.heat_of_mixing(liquid, T)
+
+        def step(_pass: Any, taken: Any) -> Any:
+            value, slope = jax.jvp(unmixed, (taken,), (jnp.ones_like(taken),))
+            return taken - value / slope
+
+        taken = jax.lax.fori_loop(0, PASSES, step, 0.0 * given)
+        return self._parted(feed, given - taken, T)
+
+    def _parted(self, feed: Stream, given: Any, T: Any) -> _Split:
+        """The same by the heat there is once the feed is at the temperature, with enthalpies that add up."""
         forming = self.crystals
         if forming:
-            each = [self._with(forming, k, feed, heat, T) for k in range(len(forming))]
+            each = [self._with(forming, k, feed, given, T) for k in range(len(forming))]
             here = self.stable(T)
             return jax.tree.map(
                 lambda *x: sum(jnp.where(h, v, 0.0) for h, v in zip(here, x, strict=True)), *each
             )
         liquid, gas = (self.mixture.enthalpies(phase, T) for phase in ("liquids", "gases"))
-        given = feed.enthalpy_flow + heat - feed.enthalpy_at(T)
         gone = jnp.clip(given / (gas[self.vapor] - liquid[0]), 0.0, DRIEST * feed.liquid[0])
         return _Split(gone, [], feed.liquid.at[0].add(-gone), feed.liquid[0])
 
-    def _with(self, forming: list[Forming], k: int, feed: Stream, heat: Any, T: Any) -> _Split:
+    def _with(self, forming: list[Forming], k: int, feed: Stream, given: Any, T: Any) -> _Split:
         """The same where one of the crystals forms; others of the solute go into solution."""
         liquid, solid, gas = (self.mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
         latent = gas[self.vapor] - liquid[0]
-        dissolved, given = feed.liquid, feed.enthalpy_flow + heat - feed.enthalpy_at(T)
+        dissolved = feed.liquid
         for r in (f.roles for f in forming):
             before, x = jnp.sum(feed.solid[r.solid]), r.solute_fraction
             dissolved = dissolved.at[r.solute].add(x * before).at[0].add((1.0 - x) * before)

@@ -14,6 +14,7 @@ import jax.numpy as jnp
 
 from granum.core import flags
 from granum.materials.correlation import Missing
+from granum.materials.formulas.caustic import STRONGEST, caustic_vapor_pressure_olsson
 from granum.materials.formulas.activity import (
     WATER,
     moller_function,
@@ -73,6 +74,26 @@ class SucroseActivity(eqx.Module):
         x = moles / (moles + 1.0 / WATER)
         inside = jnp.minimum(x, self.most)
         return water_activity_starzak_peacock(inside, temperature) * (1.0 - x) / (1.0 - inside)
+
+
+class CausticActivity(eqx.Module):
+    """Olsson's equation for sodium hydroxide in water."""
+
+    coldest, hottest = 273.15, 473.15
+    is_missing = False
+
+    def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        T = jnp.asarray(temperature)
+        key, source = caustic_vapor_pressure_olsson.card.key, caustic_vapor_pressure_olsson.source
+        outside = (solute_per_solvent > 0.0) & ((self.coldest - SLACK > T) | (self.hottest + SLACK < T))
+        flags.record(flags.EXTRAPOLATED, outside, T, "temperature", key, self.coldest, self.hottest, source)
+        w = solute_per_solvent / (1.0 + solute_per_solvent)
+        beyond = w > STRONGEST
+        flags.record(flags.EXTRAPOLATED, beyond, w, "solute_mass_fraction", key, 0.0, STRONGEST, source)
+        t, inside = jnp.clip(T, self.coldest, self.hottest), jnp.minimum(w, STRONGEST)
+        over = [caustic_vapor_pressure_olsson.function(t, x) for x in (inside, 0.0 * inside)]
+        further = jnp.maximum(solute_per_solvent * (1.0 - STRONGEST) / STRONGEST, 1.0)
+        return jnp.exp(jnp.log(over[0] / over[1]) * further)
 
 
 class IdealActivity(eqx.Module):

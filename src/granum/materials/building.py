@@ -21,7 +21,13 @@ from granum.core.kinds import KINDS
 from granum.core.unit_table import rows
 from granum.core.units import show
 from granum.materials import saturated_heats
-from granum.materials.activities import ElectrolyteActivity, IdealActivity, NoActivity, SucroseActivity
+from granum.materials.activities import (
+    CausticActivity,
+    ElectrolyteActivity,
+    IdealActivity,
+    NoActivity,
+    SucroseActivity,
+)
 from granum.materials.correlation import Correlation, Missing, Owner, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
 from granum.materials.formulas.solutions import (
@@ -29,6 +35,7 @@ from granum.materials.formulas.solutions import (
     liquid_density_laliberte,
     specific_heat_capacity_laliberte,
 )
+from granum.materials.mixing_heats import CausticMixing
 from granum.materials.salts import Salt
 from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SaltEntry, SolidEntry, SoluteEntry
 from granum.materials.solids import Solid
@@ -351,7 +358,8 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
             b if known else _saturated(system, b) for b, known in zip(branches, stated, strict=True)
         )
         system = replace(system, branches=branches)
-    return _with_enthalpies(system)
+    system = _with_enthalpies(system)
+    return replace(system, mixing_law=CausticMixing(system.solute_heat_capacity)) if entry.mixing else system
 
 
 def _saturated(system: SoluteSystem, branch: Branch) -> Branch:
@@ -370,6 +378,8 @@ def _activity(key: str, entry: SoluteEntry, solvent: Fluid) -> Any:
     found = entry.water_activity
     if found is None:
         return NoActivity(Missing(Owner.of_property(key, "water activity of the solution", entry.fr)))
+    if found.form == "olsson":
+        return CausticActivity()
     if found.form == "starzak_peacock":
         return SucroseActivity(entry.molar_mass)
     if found.form == "raoult":

@@ -168,12 +168,12 @@ class BranchEntry(_Strict):
 
 
 class ActivityEntry(_Strict):
-    """Water activity of the solutions: ``form`` is "pitzer", "starzak_peacock" or "raoult". Each Pitzer
+    """Water activity of the solutions: ``form`` is "pitzer", "starzak_peacock", "olsson" or "raoult". Each Pitzer
     parameter is eight coefficients of Møller's function of temperature, or one number at all temperatures.
     Raoult's law takes the ``ions`` of a molecule.
     """
 
-    form: Literal["pitzer", "starzak_peacock", "raoult"]
+    form: Literal["pitzer", "starzak_peacock", "olsson", "raoult"]
     ions: int = Field(default=1, ge=1, le=8)
     counts: tuple[int, int] = (1, 1)
     charges: tuple[int, int] = (1, 1)
@@ -215,6 +215,9 @@ class SoluteEntry(_Named):
     viscosity_b: float | None = Field(default=None, description="Jones and Dole's coefficient, L/mol")
     heat_capacity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
     water_activity: ActivityEntry | None = None
+    mixing: Literal["olsson"] | None = Field(
+        default=None, description="law of the enthalpy of the solutions, which holds their heat of dilution"
+    )
 
     @model_validator(mode="after")
     def _one_after_another(self) -> SoluteEntry:

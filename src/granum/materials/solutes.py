@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -141,6 +142,8 @@ class SoluteSystem(eqx.Module):
     solute_heat_capacity: apparent heat capacity of dissolved solute in the solution saturated at 25 °C, J/(kg
         K).
     activity_law: water activity, of (temperature, solute per solvent).
+    mixing_law: heat of mixing over solvent and solute counted apart, of (temperature, kg of solute, kg of
+        solvent), J; None where it is left out.
     """
 
     name: str = eqx.field(static=True)
@@ -154,6 +157,7 @@ class SoluteSystem(eqx.Module):
     heat_capacity_law: Any
     solute_heat_capacity: float
     activity_law: Any
+    mixing_law: Any = None
 
     @property
     def label(self) -> str:
@@ -220,7 +224,8 @@ class SoluteSystem(eqx.Module):
         """Heat released on crystallization at saturation, J per kg of anhydrous solute: that of one
         temperature, and from there by Kirchhoff's law.
 
-        Equals ``solute_enthalpy`` + bound solvent − ``crystal_enthalpy``, so that energy balances close.
+        Equals ``solute_enthalpy`` + bound solvent − ``crystal_enthalpy``, and what the liquor loses of its
+        heat of mixing, so that energy balances close.
         """
 
         def released(b: Branch, t: Any) -> Any:
@@ -229,6 +234,7 @@ class SoluteSystem(eqx.Module):
             return (
                 self.solute_enthalpy(t)
                 + bound
+                + self._mixing_lost(b, t)
                 - b.hydrate_ratio * (b.enthalpy_of_formation + b.crystal.enthalpy(t))
             )
 
@@ -298,7 +304,8 @@ class SoluteSystem(eqx.Module):
     # exactly ----------
     def solute_enthalpy(self, temperature: Any) -> Any:
         """Enthalpy of dissolved anhydrous solute, J/kg, with its apparent heat capacity. It is that in the
-        saturated solution at any strength: heats of dilution are left out.
+        saturated solution at any strength, heats of dilution being left out; where there is a ``mixing_law``,
+        it is that in much water, and the law has the rest.
         """
         return self.solute_heat_capacity * (as_temperature(temperature) - ZERO_CELSIUS)
 
@@ -309,6 +316,17 @@ class SoluteSystem(eqx.Module):
         b = self.branch(crystal)
         self._need_heat(b)
         return b.enthalpy_of_formation + b.crystal.enthalpy(temperature)
+
+    def _mixing_lost(self, b: Branch, T: Any) -> Any:
+        """Of the saturated liquor, as a kilogram of solute and the solvent that it binds leave it, J."""
+        law = self.mixing_law
+        if law is None:
+            return 0.0
+        there, leaving = (
+            (b.value(T), jnp.ones_like(T)),
+            (jnp.ones_like(T), b.solvent_ratio * jnp.ones_like(T)),
+        )
+        return jax.jvp(lambda s, w: law(T, s, w), there, leaving)[1]
 
     def _need_heat(self, b: Branch) -> None:
         if not b.heat_given:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.numerics.smooth import safe_divide
-from granum.streams.stream import Stream, empty
+from granum.streams.stream import Stream, empty, settled
 
 
 class Filtered(NamedTuple):
@@ -70,6 +70,6 @@ def part_cake(
     cake = joined.replace(
         liquid=saturation * (left * kept.liquid + stays * wash.liquid), gas=0.0 * joined.gas
     )
-    return Filtered(
-        cake, through, joined.replace(solid=0.0 * joined.solid, liquid=joined.liquid - cake.liquid)
-    )
+    washings = joined.replace(solid=0.0 * joined.solid, liquid=joined.liquid - cake.liquid)
+    cake, washings = settled(kept.enthalpy_flow + wash.enthalpy_flow, cake, washings)
+    return Filtered(cake, through, washings)

@@ -92,7 +92,32 @@ def mixture_of(
         gas_viscosity=GasProperty(known, carrier, vapor, "vapor_viscosity") if carrier else None,
         gas_conductivity=GasProperty(known, carrier, vapor, "vapor_conductivity") if carrier else None,
         materials=known,
+        mixing=Mixing.of(systems, liquids),
     )
+
+
+@dataclass(frozen=True)
+class Mixing:
+    """Heats of mixing of the solutes that have one, each with all there is of its solvent.
+
+    ``pairs``: the law, and the places of solute and solvent among the liquids.
+    """
+
+    pairs: tuple[tuple[Any, int, int], ...]
+
+    @classmethod
+    def of(cls, systems: Mapping[str, SoluteSystem], liquids: Sequence[str]) -> Mixing | None:
+        """Of a mixture; None where all enthalpies add up."""
+        places = {name: i for i, name in enumerate(liquids)}
+        pairs = tuple(
+            (system.mixing_law, places[name], places[system.solvent.name])
+            for name, system in systems.items()
+            if system.mixing_law is not None
+        )
+        return cls(pairs) if pairs else None
+
+    def __call__(self, flows: Any, temperature: Any) -> Any:
+        return sum(law(temperature, flows[solute], flows[solvent]) for law, solute, solvent in self.pairs)
 
 
 def solute_system(known: Library, name: str, solvents: Sequence[str]) -> SoluteSystem | None:

@@ -81,6 +81,8 @@ class Mixture:
     size_edges: class boundaries of the particle size, m, increasing (n + 1 of them).
     axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis
         leaves it alone.
+    mixing: function of (flows of the liquid species, temperature) → W, what they hold over their parts; None
+        where their enthalpies add up.
     liquid_viscosity: function of (mass fractions of the liquid species, temperature) → Pa s.
     gas_viscosity, gas_conductivity: functions of (mass fractions of the gas species, temperature) → Pa s,
         W/(m K).
@@ -96,6 +98,7 @@ class Mixture:
     gas_viscosity: Callable[[Any, Any], Any] | None = None
     gas_conductivity: Callable[[Any, Any], Any] | None = None
     materials: Library = field(default_factory=session)
+    mixing: Callable[[Any, Any], Any] | None = None
     _key: Any = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -112,6 +115,7 @@ class Mixture:
             self.gas_viscosity,
             self.gas_conductivity,
             self.materials,
+            self.mixing,
         )
         object.__setattr__(self, "_key", (hash(key), key))
 
@@ -194,6 +198,10 @@ class Mixture:
         inside = xp.clip(T, low, high)
         slopes = table[:, 1:] * np.arange(1, table.shape[1])
         return _horner(table, inside, by_row=True) + _horner(slopes, inside, by_row=True) * (T - inside)
+
+    def heat_of_mixing(self, liquids: Any, temperature: Any) -> Any:
+        """What flows of the liquid species hold over their parts, W."""
+        return 0.0 if self.mixing is None else self.mixing(liquids, temperature)
 
     def densities(self, phase: str, temperature: Any) -> Any:
         """Densities of the (condensed) species of a phase, kg/m³."""

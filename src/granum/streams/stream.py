@@ -92,7 +92,8 @@ class Stream(eqx.Module):
 
     def _enthalpy(self, flows: dict[str, Any], temperature: Any) -> Any:
         parts = [flow * self.mixture.enthalpies(phase, temperature) for phase, flow in flows.items()]
-        return sum((array_of(part).sum(part) for part in parts), np.float64(0.0))
+        total = sum((array_of(part).sum(part) for part in parts), np.float64(0.0))
+        return total + self.mixture.heat_of_mixing(self.liquid, temperature)
 
     @property
     def enthalpy_flow(self) -> Any:
@@ -277,6 +278,22 @@ class Stream(eqx.Module):
         a, b = self.mass_flow, other.mass_flow
         guess = (a * self.temperature + b * other.temperature) / jnp.where(a + b > 0, a + b, 1.0)
         return joined.at_enthalpy(self.enthalpy_flow + other.enthalpy_flow, guess=guess)
+
+
+def settled(enthalpy_flow: Any, *parts: Stream) -> tuple[Stream, ...]:
+    """Parts of one temperature at that at which they hold an enthalpy together (W): where a liquid with a
+    heat of mixing was parted into stronger and weaker ones, another than that of the whole.
+    """
+    if parts[0].mixture.mixing is None:
+        return parts
+    scale = jnp.maximum(sum(part.mass_flow for part in parts), 1e-300) * 1e3
+    root = find_root(
+        lambda T: (sum(part.enthalpy_at(T) for part in parts) - enthalpy_flow) / scale,
+        COLDEST,
+        HOTTEST,
+        start=parts[0].temperature,
+    )
+    return tuple(part.replace(temperature=root.value) for part in parts)
 
 
 def empty(mixture: Mixture, temperature: Any = 298.15, pressure: Any = STANDARD_ATMOSPHERE) -> Stream:

@@ -105,6 +105,13 @@ def flashed(feed: Stream, found: Roles, heat: Any, temperature: Any) -> tuple[An
     crystals formed.
     """
     mixture, T = feed.mixture, temperature
+    if mixture.mixing is not None:
+        raise CaseError(
+            _(
+                "A liquor with a heat of mixing is not flashed here: thicken it in an evaporator, and cool it "
+                "in a crystallizer of a given temperature."
+            )
+        )
     liquid, solid, gas = (mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
     latent = gas[found.vapor] - liquid[found.solvent]
     x = found.solute_fraction

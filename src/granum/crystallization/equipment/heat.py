@@ -33,11 +33,10 @@ class StreamHeat(Heat):
     def _enthalpy(self, T: Any, contents: Contents, crystals: Any) -> Any:
         liquid, solid = (self.mixture.enthalpies(phase, T) for phase in ("liquids", "solids"))
         x = self.found.solute_fraction
-        flow = (contents.solute - x * crystals) * liquid[self.found.solute] + crystals * solid[
-            self.found.solid
-        ]
-        flow = flow + (contents.solvent - (1.0 - x) * crystals) * liquid[self.found.solvent]
-        return flow + jnp.sum(self.other_liquids * liquid) + jnp.sum(self.other_solids * solid)
+        left = self.other_liquids.at[self.found.solute].add(contents.solute - x * crystals)
+        left = left.at[self.found.solvent].add(contents.solvent - (1.0 - x) * crystals)
+        flow = crystals * solid[self.found.solid] + jnp.sum(self.other_solids * solid)
+        return flow + jnp.sum(left * liquid) + self.mixture.heat_of_mixing(left, T)
 
     def capacity(self, contents: Contents, crystals: Any) -> Any:
         T = jnp.asarray(contents.temperature, dtype=float)

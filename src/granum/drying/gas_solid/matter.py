@@ -81,7 +81,13 @@ class Matter(eqx.Module):
         for i, (row, bound) in enumerate(deposits(self.mixture) if len(self.dissolved) else ()):
             crystal = (1.0 + bound) * self.mixture.solids[row].enthalpy(T)
             found += self.dissolved[i] * (self.mixture.liquids[i + 1].enthalpy(T) + bound * solvent - crystal)
-        return found
+        return found + self.mixture.heat_of_mixing(self._liquor(), T)
+
+    def _liquor(self) -> Any:
+        """The liquids that come with a kilogram of the one that can leave."""
+        places = enumerate(deposits(self.mixture)) if len(self.dissolved) else ()
+        whole = 1.0 + sum(self.dissolved[i] * bound for i, (_row, bound) in places)
+        return (whole, *self.dissolved)
 
     def vapor_enthalpy(self, T: Any) -> Any:
         """Vapor."""

@@ -45,7 +45,7 @@ from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.pressures import pressure_left
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, settled
 from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, FANNED, PUMPED, fanned, pumped
 
@@ -210,10 +210,8 @@ class CarbonBed(Unit):
         place = self.place(feed)
         taken = jnp.zeros_like(all_of_it).at[place].set(inside.removed * all_of_it[place])
         nothing = feed.part(solid=0.0, liquid=0.0, gas=0.0)
-        return Purified(
-            feed.replace(**{phase: all_of_it - taken}, pressure=self.left(feed, inside)),
-            nothing.replace(**{phase: taken}),
-        )
+        product = feed.replace(**{phase: all_of_it - taken}, pressure=self.left(feed, inside))
+        return Purified(*settled(feed.enthalpy_flow, product, nothing.replace(**{phase: taken})))
 
     def left(self, feed: Stream, inside: Bedded) -> Any:
         """Pressure behind the bed."""

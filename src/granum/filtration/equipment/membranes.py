@@ -39,7 +39,7 @@ from granum.numerics.loops import told_scan
 from granum.numerics.smooth import safe_divide
 from granum.streams.formulas.drives import shaft_power_incompressible
 from granum.streams.inside_charts import Axis, Curve, Mark, drawn_along
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, settled
 from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import AREA, PUMP, PUMPED, driven
 
@@ -141,11 +141,8 @@ class _Plant(Unit):
             solid=retentate.solid + permeate.solid, liquid=retentate.liquid + permeate.liquid
         )
         there = whole.at_enthalpy(entering + power)
-        return Parted(
-            retentate.replace(temperature=there.temperature),
-            permeate.replace(temperature=there.temperature),
-            power,
-        )
+        parts = (part.replace(temperature=there.temperature) for part in (retentate, permeate))
+        return Parted(*settled(entering + power, *parts), power)
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         chain, count = made.inside, len(made.inside.flux)

@@ -222,8 +222,10 @@ class AdiabaticHumidifier(Unit):
 
         def wetted(evaporated: Any) -> Stream:
             taken = water.replace(liquid=jnp.zeros_like(water.liquid).at[0].set(evaporated))
+            drain = water.replace(liquid=water.liquid - taken.liquid)
             moist = humid.moved(gas + taken, evaporated)
-            return moist.at_enthalpy(gas.enthalpy_flow + taken.enthalpy_flow, guess=gas.temperature)
+            given = gas.enthalpy_flow + water.enthalpy_flow - drain.enthalpy_flow
+            return moist.at_enthalpy(given, guess=gas.temperature)
 
         def surplus(T: Any) -> Any:
             """Water that cooling the gas to T evaporates, less what it then takes to saturation."""
