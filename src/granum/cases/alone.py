@@ -157,7 +157,7 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
             raise InputError(
                 _(
                     "'{name}' is what {owner} answers, not an input. To have a value of it, size for it: in a "
-                    "case file a table [specifications.NAME] with vary, so_that and equals."
+                    "case file a table [specifications.NAME] with 'vary', 'so_that' and 'equals'."
                 ).format(name=word, owner=thing.card.key),
                 name=word,
             )
