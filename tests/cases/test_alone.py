@@ -174,7 +174,7 @@ def test_shares_that_were_not_said_fill_up_those_that_were() -> None:
 
 
 def test_what_a_unit_answers_is_no_input_of_it() -> None:
-    with pytest.raises(InputError, match="is what comminution.bond_mill answers"):
+    with pytest.raises(InputError, match=r"is what comminution\.bond_mill answers"):
         tables("comminution.bond_mill", {"product_size": "3 mm"})
 
 

@@ -92,4 +92,4 @@ def test_single_effect_of_coulson_and_richardson() -> None:
     )
     assert run.figure("evaporator.heat_duty") == pytest.approx(14.202e6, rel=0.01)
     assert run.figure("evaporator.evaporation_rate") == pytest.approx(5.6, rel=0.01)
-    assert run.figure("evaporator.steam_consumption") == pytest.approx(6.46, rel=0.01)
+    assert run.figure("evaporator.steam_flow") == pytest.approx(6.46, rel=0.01)

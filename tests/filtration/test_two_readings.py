@@ -49,7 +49,9 @@ def test_press_of_brasch_and_whyman_after_half_an_hour():
     """Example 8.1: 3.23 kPa after 2 min and 6.53 kPa after 5 min at 78 L/s; 34.03 kPa after 30 min, when
     the cake over 29.75 m² is 102.6 mm thick, and the cloth is worth 3.2 mm of it.
     """
-    moist = 0.0278 * 998 / ((1 - 0.0278) * 1324 - 0.0278 * (1 - 1324 / 2230) * 998)  # cake per filtrate, volume
+    moist = (
+        0.0278 * 998 / ((1 - 0.0278) * 1324 - 0.0278 * (1 - 1324 / 2230) * 998)
+    )  # cake per filtrate, volume
     state = {
         "filtrate_flow": "78 L/s",
         "area": "29.75 m2",

@@ -180,7 +180,9 @@ def test_a_curve_that_bends_from_the_start_is_read_and_doubted():
     12 cm of an underflow of 8 g/L after 8 to 9.4 min; over 0.96 kg/m² that is 500 to 585 m² s/kg.
     """
     minutes = np.array([0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 26.0])
-    height = np.array([48, 28, 23.4, 20.6, 18.4, 16.8, 15.7, 14.8, 14, 12.8, 11.8, 11.2, 10.6, 10.4, 10.2, 10])
+    height = np.array(
+        [48, 28, 23.4, 20.6, 18.4, 16.8, 15.7, 14.8, 14, 12.8, 11.8, 11.2, 10.6, 10.4, 10.2, 10]
+    )
     found = BatchTest(
         time=60 * minutes,
         interface_height=height / 100,

@@ -22,8 +22,8 @@ from granum.cases.reading import read_text
 from granum.cases.schema import OWN, FeedTable
 from granum.cases.tables import as_toml, put
 from granum.core import registry
-from granum.core.documents import table_in
 from granum.core.conversion import convert
+from granum.core.documents import table_in
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -156,8 +156,8 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
         if word in {p.name for p in thing.card.outputs}:
             raise InputError(
                 _(
-                    "'{name}' is what {owner} answers, not an input. To have a value of it, size for it: in a "
-                    "case file a table [specifications.NAME] with 'vary', 'so_that' and 'equals'."
+                    "'{name}' is what {owner} answers, not an input. To have a value of it, size for it: in "
+                    "a case file a table [specifications.NAME] with 'vary', 'so_that' and 'equals'."
                 ).format(name=word, owner=thing.card.key),
                 name=word,
             )
@@ -210,7 +210,9 @@ def _fill_up(feeds: Mapping[str, dict[str, Any]], said: Mapping[str, Any]) -> No
             if not own or f"{port}.{shares}" in said or not isinstance(there, dict) or own == set(there):
                 continue
             try:
-                numbers = {n: float(convert(v, Parameter(n, KINDS["MassFraction"]))) for n, v in there.items()}
+                numbers = {
+                    n: float(convert(v, Parameter(n, KINDS["MassFraction"]))) for n, v in there.items()
+                }
             except GranumError:  # told where the feed is read
                 continue
             left = 1.0 - sum(numbers[name] for name in own)

@@ -29,8 +29,8 @@ class LabTest(eqx.Module):
     """A laboratory test: columns measured under conditions, from which parameters are estimated.
 
     Class variables: ``estimates`` (kinds of the parameters by name), ``least_points``, ``for_two_points``,
-    ``axes`` (kinds of what is fitted against what, by glossary word, for the chart), and ``holds_for``: columns and conditions
-    outside whose range the estimates are extrapolated.
+    ``axes`` (kinds of what is fitted against what, by glossary word, for the chart), and ``holds_for``:
+    columns and conditions outside whose range the estimates are extrapolated.
     """
 
     card: ClassVar[Card]

@@ -167,7 +167,10 @@ def hoop_stress_bowl(
     93.6
     """
     watch(thickness_ratio=wall_thickness / bowl_radius)
-    return wall_density * (rotation_speed * bowl_radius) ** 2 + liquid_pressure_bowl * bowl_radius / wall_thickness
+    return (
+        wall_density * (rotation_speed * bowl_radius) ** 2
+        + liquid_pressure_bowl * bowl_radius / wall_thickness
+    )
 
 
 @formula(

@@ -130,7 +130,9 @@ class ElectrostaticPrecipitator(Collector):
         slowest = jnp.argmin(jnp.min(inside.migration, axis=0))
         return PrecipitatorFigures(
             mean,
-            None if self.migration_velocity_effective is not None else jnp.asarray(feed.mixture.sizes)[slowest],
+            None
+            if self.migration_velocity_effective is not None
+            else jnp.asarray(feed.mixture.sizes)[slowest],
             inside.velocity,
             jnp.asarray(self.pressure_drop, dtype=float),
             removed,
