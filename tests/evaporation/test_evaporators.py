@@ -248,8 +248,8 @@ def test_two_salts_crystallize_together_where_both_are_saturated():
 
 def test_a_heat_of_dilution_that_matters_is_told():
     """McCabe, Smith and Harriott's single effect (example 16.1, opened as the Scilab companion): caustic
-    soda from 20 to 50 %, by the enthalpy chart 14.456 million Btu/h for 12,000 lb/h of water. Balances without it ask for 5 % less,
-    and say so; of salt brine it does not matter.
+    soda from 20 to 50 %, by the enthalpy chart 14.456 million Btu/h for 12,000 lb/h of water. Balances
+    without it ask for 5 % less, and say so; of salt brine it does not matter.
     """
     one = Evaporator("930 ft2", "100 mmHg", "20 psig", heat_transfer_coefficient="250 BTU/(h ft2 degF)")
     told = {}
