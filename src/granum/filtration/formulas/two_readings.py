@@ -40,10 +40,10 @@ class Resistances(NamedTuple):
         r"\frac{\Delta p\,A}{\eta}\left(\frac{t_1}{V_1} - \frac{\eta\,\alpha\,W}{2\,\Delta p\,A^2}V_1\right)"
     ),
     typical={
-        "time_first": (100.0, 300.0),
-        "time_second": (400.0, 600.0),
-        "filtrate_volume_first": (2.4e-4, 2.6e-4),
-        "filtrate_volume_second": (3.5e-4, 4e-4),
+        "time_first": (140.0, 160.0),
+        "time_second": (420.0, 450.0),
+        "filtrate_volume_first": (2.45e-4, 2.55e-4),
+        "filtrate_volume_second": (4.9e-4, 5.1e-4),
         "area": (0.02, 0.1),
     },
 )
@@ -87,7 +87,7 @@ def resistances_two_volumes(
         r"\frac{A}{\eta\,q}\,\frac{\Delta p_1\,t_2 - \Delta p_2\,t_1}{t_2 - t_1}"
     ),
     typical={
-        "time_first": (100.0, 200.0),
+        "time_first": (100.0, 120.0),
         "time_second": (300.0, 400.0),
         "pressure_drop_first": (4e4, 5e4),
         "pressure_drop_second": (6e4, 8e4),
