@@ -13,7 +13,7 @@ from tests.sharing.commands import granum
 import granum as gr
 from granum.cases import read_text
 from granum.cases.alone import alone, assumed, case_text, tables
-from granum.core.errors import GranumError
+from granum.core.errors import GranumError, InputError
 from granum.core.index import entries
 
 EQUIPMENT = [key for key, entry in entries().items() if entry.sort == "equipment"]
@@ -157,6 +157,25 @@ def test_another_law_takes_none_of_the_parameters_of_the_example(turned: bool) -
     assert case["feeds"]["feed"]["sizes"] == sizes
     kept = case_text("cyclones.gas_cyclone", {"feed.sizes.law": "rosin_rammler"})
     assert tomllib.loads(kept)["feeds"] == tomllib.loads(case_text("cyclones.gas_cyclone"))["feeds"]
+
+
+def test_shares_that_were_not_said_fill_up_those_that_were() -> None:
+    """A brine of four fifths water has a fifth of the salt of the example; the others of three keep their
+    proportion.
+    """
+    feed = tables("evaporation.evaporator", {"feed.liquid.water": "80 %"})["feeds"]["feed"]
+    assert feed["liquid"].pop("water") == "80 %"
+    assert list(feed["liquid"].values()) == [pytest.approx(0.2)]
+    text = case_text("evaporation.evaporator", {"feed.liquid.water": 0.8})
+    liquid = read_text(text).solve().streams["feed"].liquid
+    assert float(liquid.min() / liquid.sum()) == pytest.approx(0.2)
+    with pytest.raises(GranumError, match="120 %"):
+        read_text(case_text("evaporation.evaporator", {"feed.liquid.water": 1.2}))
+
+
+def test_what_a_unit_answers_is_no_input_of_it() -> None:
+    with pytest.raises(InputError, match=r"is what comminution\.bond_mill answers"):
+        tables("comminution.bond_mill", {"product_size": "3 mm"})
 
 
 def test_a_formula_is_no_equipment() -> None:

@@ -18,6 +18,7 @@ from granum.estimation import read_table
 from granum.estimation.tables import as_csv
 from granum.filtration.lab_tests.leaf_test import LeafTest
 from granum.particles.lab_tests.sieve_analysis import SieveAnalysis
+from granum.settling.lab_tests.coe_clevenger_series import CoeClevengerSeries
 
 FILES = max(300, SAMPLES)
 COLUMNS = [p for p in LeafTest.card.parameters if p.series]
@@ -188,3 +189,13 @@ def test_what_a_sieve_sheet_says_of_the_pan_is_no_sieve(tmp_path, pan):
     sheet.write_text(f"aperture (mm),mass retained (%)\n0.5,0\n0.25,60\n0.125,30\n{pan},10\n")
     found = SieveAnalysis.read(sheet).distribution().fractions
     assert [round(float(share), 9) for share in found] == [0.1, 0.3, 0.6]
+
+
+def test_a_column_of_another_sort_is_not_taken_for_the_one_asked_for(tmp_path):
+    """Liquid per solid, as Coulson and Richardson's example 5.1 has it, is no concentration."""
+    sheet = tmp_path / "series.csv"
+    sheet.write_text("liquid_ratio [kg/kg],settling_velocity [mm/s]\n5,0.2\n4.2,0.12\n3.7,0.094\n")
+    with pytest.raises(InputError) as problem:
+        CoeClevengerSeries.read(sheet)
+    assert "rename it" not in problem.value.message
+    assert "Columns found: liquid_ratio, settling_velocity" in problem.value.message

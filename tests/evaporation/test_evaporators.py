@@ -12,6 +12,8 @@ from granum.core.notices import describe
 from granum.evaporation.boiling import Liquor
 from granum.evaporation.equipment.evaporator import Evaporator, RecompressionEvaporator
 from granum.evaporation.equipment.multiple_effect import MultipleEffectEvaporator
+from granum.materials import solute
+from granum.materials.formulas.caustic import caustic_enthalpy_olsson
 from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
 
@@ -247,7 +249,7 @@ def test_two_salts_crystallize_together_where_both_are_saturated():
 
 
 CAUSTIC = [
-    # McCabe, Smith and Harriott, example 16.3 (recalled): Btu/h and lb/h, enthalpies off a chart
+    # McCabe, Smith and Harriott, example 16.1 (opened as the Scilab companion): enthalpies off a chart
     ("930 ft2", "100 mmHg", "20 psig", "250 BTU/(h ft2 degF)", "20000 lb/h", "100 degF", 0.2, 2.8021e6),
     # Geankoplis, example 8.4-3 (opened in public solutions): 3255 kg/h of steam at 172.4 kPa for 2722 kg/h
     ("49.2 m2", "11.7 kPa", "172.4 kPa", 1560.0, "4536 kg/h", "60 degC", 0.2, 2002e3 / (2722 / 3600)),
@@ -304,6 +306,5 @@ def test_a_heat_of_dilution_that_is_left_out_is_told_where_it_matters():
         liquor = mixture_of(["water", name], [], ["water"], (1e-5, 1e-3))
         lye = {name: strong, "water": 1.0 - strong}
         told[name] = one.operate(feed=feed(liquor, liquid_flow=3.0, temperature="60 degC", liquid=lye))
-    print({n: (float(r.figures.solute_mass_fraction), reasons(r)) for n, r in told.items()})
     assert any("heat of dilution" in reason for reason in reasons(told["calcium chloride"]))
     assert not any("heat of dilution" in reason for reason in reasons(told["sodium chloride"]))

@@ -22,9 +22,12 @@ from granum.cases.reading import read_text
 from granum.cases.schema import OWN, FeedTable
 from granum.cases.tables import as_toml, put
 from granum.core import registry
+from granum.core.conversion import convert
 from granum.core.documents import table_in
-from granum.core.errors import InputError, unknown_name
+from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
 from granum.core.stand_ins import stands_for
 from granum.core.words import plain
 from granum.flowsheet.run import Line
@@ -90,6 +93,7 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
                 if f"{port}.{word}" not in (words or {}):
                     feed.pop(word, None)
     _drop_what_is_gone(mixture, feeds, words or {})
+    _fill_up(feeds, words or {})
     _drop_laws_of({name for _phase, name in before - _present(mixture)}, own, words or {})
     for port, feed in feeds.items():
         feeds[port] = {"to": f"{name}.{port}"} | feed
@@ -149,6 +153,14 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
             name=word,
         )
     else:
+        if word in {p.name for p in thing.card.outputs}:
+            raise InputError(
+                _(
+                    "'{name}' is what {owner} answers, not an input. To have a value of it, size for it: in "
+                    "a case file a table [specifications.NAME] with 'vary', 'so_that' and 'equals'."
+                ).format(name=word, owner=thing.card.key),
+                name=word,
+            )
         known = [p.name for p in thing.card.parameters]
         known += [f"{port}.{name}" for port in feeds for name in FIELDS]
         raise unknown_name(_("Input"), word, known, _for(thing), meant=_called(thing, word))
@@ -187,6 +199,27 @@ def _drop_what_is_gone(
                 feed[shares] = kept
             elif gone and f"{port}.{shares}" not in said:
                 del feed[shares]
+
+
+def _fill_up(feeds: Mapping[str, dict[str, Any]], said: Mapping[str, Any]) -> None:
+    """The shares of a phase that were not said fill up those that were, in the proportions of the example."""
+    for port, feed in feeds.items():
+        for shares in PHASES.values():
+            there = feed.get(shares)
+            own = {name for name in there or () if f"{port}.{shares}.{name}" in said}
+            if not own or f"{port}.{shares}" in said or not isinstance(there, dict) or own == set(there):
+                continue
+            try:
+                numbers = {
+                    n: float(convert(v, Parameter(n, KINDS["MassFraction"]))) for n, v in there.items()
+                }
+            except GranumError:  # told where the feed is read
+                continue
+            left = 1.0 - sum(numbers[name] for name in own)
+            rest = sum(number for name, number in numbers.items() if name not in own)
+            if left >= 0.0 and rest > 0.0:
+                filled = {n: float(f"{numbers[n] * left / rest:.12g}") for n in numbers if n not in own}
+                feed[shares] = {n: filled.get(n, v) for n, v in there.items()}
 
 
 def _present(mixture: Mapping[str, Any]) -> set[tuple[str, str]]:

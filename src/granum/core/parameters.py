@@ -16,6 +16,7 @@ from granum.core.kinds import Kind, Law, Series, Within, extra_of, kind_of
 
 REQUIRED = inspect.Parameter.empty
 COLDEST = 150.0  # K: colder than any operation here, warmer than any Celsius number that forgot its unit
+_LARGEST_SHARE = 5.0  # usual value beyond which a plain number is offered no percent
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,14 @@ class Parameter:
             found is not None and found.unit is not None and units.same_dimension(found.unit, self.kind.unit)
         )
         usual = (found.unit,) if found and found.unit and fits else ()
-        return usual + tuple(u for u in self.kind.units if u not in usual)
+        # a Reynolds number or a number of bends is no share, though it has no dimension
+        shares = (
+            self.kind.name != "ratio"
+            or found is None
+            or found.unit == "percent"
+            or found.typical[1] <= _LARGEST_SHARE
+        )
+        return usual + tuple(u for u in self.kind.units if u not in usual and (shares or u != "percent"))
 
     def display_unit(self, values: Any) -> str:
         """The unit in which SI values of this quantity are shown; empty for what is no quantity."""

@@ -129,8 +129,11 @@ def _meant(key: str) -> list[str]:
     slip = nearest(own, owns, strict=True)
     if slip:
         return [owns[slip]]
+    words = set(own.split("_"))
     found = [entry.key for entry in search(own.replace("_", " "), MOST_FOUND)]
-    found.sort(key=lambda k: not k.startswith(f"{domain}."))
+    near = [key for name, key in owns.items() if domain and words & set(name.split("_"))]
+    inside = dict.fromkeys([*(k for k in found if domain and k.startswith(f"{domain}.")), *near])
+    found = list(inside) or found
     likely = found or [k for k in [nearest(key, names)] if k]
     return likely[:MOST_TOLD]
 

@@ -96,11 +96,13 @@ def stands_for(name: str, known: Container[str]) -> str | None:
     'radius_outer'
     >>> stands_for("outlet_temperature", ["temperature_inlet", "temperature_outlet"])
     'temperature_outlet'
+    >>> stands_for("temperature_wet_bulb", ["temperature", "wet_bulb_temperature"])
+    'wet_bulb_temperature'
     """
     if name in known:
         return None
-    if _turned(name) in known:
-        return _turned(name)
+    if turned := [other for other in _turns(name) if other in known]:
+        return turned[0]
     if name == "standard":
         lengths = _designed(known)
         return lengths[0] if lengths else None
@@ -129,6 +131,14 @@ def _radii(diameter: str) -> tuple[str, ...]:
 def _turned(name: str) -> str:
     """A name of two words the other way round: the outlet temperature is the temperature of the outlet."""
     return "_".join(reversed(name.split("_"))) if name.count("_") == 1 else name
+
+
+def _turns(name: str) -> tuple[str, ...]:
+    """A name with its first word last, or its last word first."""
+    words = name.split("_")
+    if len(words) < 2:
+        return ()
+    return "_".join([*words[1:], words[0]]), "_".join([words[-1], *words[:-1]])
 
 
 def given_by(names: Iterable[str], known: Container[str]) -> frozenset[str]:
@@ -169,7 +179,7 @@ class StandIns:
             wanted = stands_for(name, self.known)
             if wanted is None:
                 continue
-            if wanted == _turned(name):
+            if wanted in _turns(name):
                 self._put(name, wanted, self.values[name])
             elif name == "standard":
                 self._standard()

@@ -28,15 +28,16 @@ if TYPE_CHECKING:
 class LabTest(eqx.Module):
     """A laboratory test: columns measured under conditions, from which parameters are estimated.
 
-    Class variables: ``estimates`` (kinds of the parameters by name), ``least_points``, ``axes`` (kinds of
-    what is fitted against what, by glossary word, for the chart), and ``holds_for``: columns and conditions
-    outside whose range the estimates are extrapolated.
+    Class variables: ``estimates`` (kinds of the parameters by name), ``least_points``, ``for_two_points``,
+    ``axes`` (kinds of what is fitted against what, by glossary word, for the chart), and ``holds_for``:
+    columns and conditions outside whose range the estimates are extrapolated.
     """
 
     card: ClassVar[Card]
     estimates: ClassVar[Mapping[str, Any]]
     axes: ClassVar[Mapping[str, Any]]
     least_points: ClassVar[int] = 3
+    for_two_points: ClassVar[str] = ""  # key of the formula for a test of two readings
     rest: ClassVar[tuple[str, str, str] | None] = None  # of `read_table`
     holds_for: ClassVar[tuple[str, ...]] = ()
     origins: tuple[tuple[str, str], ...] = eqx.field(
@@ -66,11 +67,14 @@ class LabTest(eqx.Module):
             shown = ", ".join(f"{name} ({count})" for name, count in lengths.items())
             raise InputError(_("The columns have unequal lengths: {columns}.").format(columns=shown))
         if lengths and min(lengths.values()) < self.least_points:
-            raise InputError(
-                _("{card} needs at least {least} points; {given} were given.").format(
-                    card=card.key, least=self.least_points, given=min(lengths.values())
-                )
+            message = _("{card} needs at least {least} points; {given} were given.").format(
+                card=card.key, least=self.least_points, given=min(lengths.values())
             )
+            if min(lengths.values()) == 2 and self.for_two_points:
+                message += " " + _("Two readings lie on one line: '{card}' gives it.").format(
+                    card=self.for_two_points
+                )
+            raise InputError(message)
         for name in lengths:
             values = np.asarray(getattr(self, name), dtype=float)
             if not np.all(np.isfinite(values)):

@@ -108,7 +108,8 @@ def read_table(
     others = [name for name in places if name not in {p.name for p in columns}]
     for p in columns:
         if p.name not in places:
-            close = nearest(p.name, others)
+            meant = [n for n in others if not units.get(n) or (p.kind and fits(units[n] or "", p.kind.unit))]
+            close = nearest(p.name, meant)
             if p.required or (
                 close
                 and nearest(close, [p.name])

@@ -219,7 +219,6 @@ from granum.filtration.formulas.pleats import (
     pressure_drop_pleated as pressure_drop_pleated,
 )
 from granum.filtration.formulas.readings import (
-    Resistances as Resistances,
     filtration_time_ruth as filtration_time_ruth,
     resistances_constant_pressure as resistances_constant_pressure,
     resistances_constant_rate as resistances_constant_rate,
@@ -238,6 +237,11 @@ from granum.filtration.formulas.suction import (
     capillary_suction_time as capillary_suction_time,
     filterability_constant as filterability_constant,
     suction_constant_calibration as suction_constant_calibration,
+)
+from granum.filtration.formulas.two_readings import (
+    Resistances as Resistances,
+    resistances_two_pressures as resistances_two_pressures,
+    resistances_two_volumes as resistances_two_volumes,
 )
 from granum.filtration.formulas.washing import (
     axial_dispersion_cake as axial_dispersion_cake,

@@ -16,7 +16,7 @@ import numpy as np
 
 from granum.core import flags, notebooks, record_steps
 from granum.core.conversion import convert
-from granum.core.errors import ConvergenceError, InputError
+from granum.core.errors import ConvergenceError, InputError, nearest
 from granum.core.formulas import Result
 from granum.core.i18n import _
 from granum.core.packing import as_arrays, compiled
@@ -396,7 +396,11 @@ class Run:
         """One result, ``unit.result``, SI."""
         unit, _dot, name = path.partition(".")
         if unit not in self.units or not hasattr(self.units[unit].values, name):
-            raise InputError(_("'{path}' is not a result of this line.").format(path=path), path=path)
+            message = _("'{path}' is not a result of this line.").format(path=path)
+            known = [f"{unit}.{result}" for unit, own in self.units.items() for result in own.values._fields]
+            if close := nearest(path, known):
+                message += " " + _("Did you mean '{close}'?").format(close=close)
+            raise InputError(message, path=path)
         return float(getattr(self.units[unit].values, name))
 
     def sought(self) -> Iterator[tuple[str, Parameter, float]]:

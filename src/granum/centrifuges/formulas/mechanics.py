@@ -16,7 +16,7 @@ from granum.core.kinds import (
     MassFlow,
     PositiveNumber,
     Power,
-    Pressure,
+    PressureDrop,
     RotationSpeed,
     Stress,
     Time,
@@ -149,14 +149,14 @@ def discharge_interval(sludge_volume: Volume, volume_flow: VolumeFlow) -> Time:
         "bowl_radius": (0.1, 0.5),
         "wall_thickness": (5e-3, 3e-2),
         "rotation_speed": (100.0, 600.0),
-        "pressure": (1e5, 5e6),
+        "liquid_pressure_bowl": (1e5, 5e6),
     },
 )
 def hoop_stress_bowl(
     bowl_radius: Length,
     wall_thickness: Length,
     rotation_speed: RotationSpeed,
-    pressure: Pressure,
+    liquid_pressure_bowl: PressureDrop,
     wall_density: Density = 7850.0,
 ) -> Stress:
     """Hoop stress in a thin bowl wall: its own weight in the field and the pressure of its contents.
@@ -167,7 +167,10 @@ def hoop_stress_bowl(
     93.6
     """
     watch(thickness_ratio=wall_thickness / bowl_radius)
-    return wall_density * (rotation_speed * bowl_radius) ** 2 + pressure * bowl_radius / wall_thickness
+    return (
+        wall_density * (rotation_speed * bowl_radius) ** 2
+        + liquid_pressure_bowl * bowl_radius / wall_thickness
+    )
 
 
 @formula(

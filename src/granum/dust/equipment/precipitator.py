@@ -40,10 +40,12 @@ SLOWEST = 1e-9  # m³/s
 
 
 class PrecipitatorFigures(NamedTuple):
-    """Figures of a precipitator; the slowest size is the one that is collected worst."""
+    """Figures of a precipitator; the slowest size is the one that is collected worst, None where all have
+    one velocity.
+    """
 
     migration_velocity: Speed
-    size_slowest: Length
+    size_slowest: Length | None
     gas_velocity: Speed
     pressure_drop: PressureDrop
     removal_efficiency: Fraction
@@ -71,7 +73,8 @@ class ElectrostaticPrecipitator(Collector):
 
     Field and diffusion charges are added. Nothing is re-entrained and no gas sneaks past: real plants keep
     some tenths to a half of the migration velocity, which ``migration_share`` says. Resistivity beyond
-    1e11 Ω m (back corona) is outside the model.
+    1e11 Ω m (back corona) is outside the model. With ``migration_velocity_effective``, that of plants on the
+    same dust, all sizes drift so fast and the fields do not count (Deutsch and Anderson).
     """
 
     area: Area
@@ -90,6 +93,7 @@ class ElectrostaticPrecipitator(Collector):
     explosible_concentration: Concentration | None = None
     layer_ignition_temperature: Temperature | None = None
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
+    migration_velocity_effective: Speed | None = None
 
     limits: ClassVar[Limits] = (
         Collector.limits
@@ -105,13 +109,16 @@ class ElectrostaticPrecipitator(Collector):
 
     def inside(self, feed: Stream) -> Charged:
         gas = seen(feed)
+        flow = jnp.maximum(gas.volume_flow, SLOWEST)
+        if self.migration_velocity_effective is not None:
+            speed = jnp.full_like(slip(gas, feed), self.migration_velocity_effective)
+            return Charged(flow / self.section, flow, speed, grade_efficiency_deutsch(speed, self.area, flow))
         charge = elementary_charges_field(
             gas.size, self.charging_field, self.relative_permittivity, self.ion_dose
         ) + elementary_charges_diffusion(gas.size, feed.temperature, self.ion_dose)
         speed = self.migration_share * migration_velocity(
             charge, self.collecting_field, gas.size, gas.viscosity, slip(gas, feed)
         )
-        flow = jnp.maximum(gas.volume_flow, SLOWEST)
         return Charged(flow / self.section, flow, speed, grade_efficiency_deutsch(speed, self.area, flow))
 
     def outlets(self, inside: Charged, feed: Stream) -> Cleaned:
@@ -123,7 +130,9 @@ class ElectrostaticPrecipitator(Collector):
         slowest = jnp.argmin(jnp.min(inside.migration, axis=0))
         return PrecipitatorFigures(
             mean,
-            jnp.asarray(feed.mixture.sizes)[slowest],
+            None
+            if self.migration_velocity_effective is not None
+            else jnp.asarray(feed.mixture.sizes)[slowest],
             inside.velocity,
             jnp.asarray(self.pressure_drop, dtype=float),
             removed,

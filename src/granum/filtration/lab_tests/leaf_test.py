@@ -204,6 +204,7 @@ class LeafTest(ConstantPressureTest):
     dry_cake_per_filtrate: Concentration
     first_points_excluded: Excluded | None = None
 
+    for_two_points: ClassVar = "filtration.resistances_two_volumes"
     estimates: ClassVar = {"cake_resistance": CakeResistance, "medium_resistance": MediumResistance}
 
     def fit(self) -> Fit:

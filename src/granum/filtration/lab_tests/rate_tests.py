@@ -59,6 +59,7 @@ class ConstantRateTest(LabTest):
     compressible: bool = False
     reference_pressure: PressureDrop = 1e5
 
+    for_two_points: ClassVar = "filtration.resistances_two_pressures"
     estimates: ClassVar = {
         "cake_resistance": CakeResistance,
         "cake_resistance_reference": CakeResistance,

@@ -160,6 +160,17 @@ def read_curve(time: Any, height: Any, initial_height: float | None = None) -> C
     spread = float(np.sqrt(np.sum((h[skip:] - convex.height) ** 2) / max(t.size - skip - 3, 1)))
     noise = max(spread, LEAST_NOISE * start)
     line = _constant_rate(t[skip:], h[skip:], noise)
+    if line.points == 2:
+        said.append(
+            (
+                "no zone of constant rate",
+                _(
+                    "There is no zone of constant rate: the first three points do not lie on a line. The "
+                    "first settling velocity is that between the first two readings, and is at least this. "
+                    "Sample earlier or dilute the suspension."
+                ),
+            )
+        )
     lag = max((start - line.height) / -line.velocity, 0.0) if skip else 0.0
     if skip:
         said.append(
@@ -201,15 +212,11 @@ def _line(t: np.ndarray, h: np.ndarray) -> tuple[Straight, np.ndarray]:
 
 
 def _constant_rate(t: np.ndarray, h: np.ndarray, noise: float) -> Straight:
-    """The longest straight start of the curve."""
+    """The longest straight start of the curve; its first two points where three already bend."""
     found, residual = _line(t[:3], h[:3])
     if np.max(np.abs(residual)) > 3 * noise:
-        raise InputError(
-            _(
-                "There is no zone of constant rate: the first three points do not lie on a line. Sample "
-                "earlier or dilute the suspension."
-            )
-        )
+        found, _none = _line(t[:2], h[:2])
+        return found
     for count in range(4, t.size + 1):
         line, residual = _line(t[:count], h[:count])
         ahead = h[count - 1] - (found.height - found.velocity * t[count - 1])
