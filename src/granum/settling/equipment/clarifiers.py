@@ -43,6 +43,7 @@ def grade_efficiency(velocity: Any, critical: Any, tank_number: Any) -> Any:
     given.
     """
     falling = jnp.maximum(velocity, 1e-300)
+    critical = jnp.maximum(critical, 1e-150)  # nothing flows: its square still divides, for the derivative
     share = (
         removal_efficiency_camp(falling, critical)
         if tank_number is None
