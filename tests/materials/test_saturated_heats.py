@@ -109,8 +109,8 @@ def test_calcium_chloride_hexahydrate_is_near_its_heat_of_melting():
 
 
 def test_crystals_of_a_solution_that_is_cooled_and_boiled():
-    """Opened at holooly.com (McCabe, Smith and Harriott, example 27.1): 1000 kg with 30 % of magnesium sulfate
-    are cooled to 60 °F while 5 % of the water boils off: 261 kg of Epsom salt.
+    """Opened at holooly.com (McCabe, Smith and Harriott, example 27.1): 1000 kg with 30 % of magnesium
+    sulfate are cooled to 60 °F while 5 % of the water boils off: 261 kg of Epsom salt.
     """
     system = session().solute("magnesium sulfate")
     T, salt, water = 60.0 / 1.8 + 255.372, 300.0, 700.0 * 0.95
