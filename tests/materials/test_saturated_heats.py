@@ -90,3 +90,30 @@ def test_epsom_salt_gives_off_what_its_enthalpy_chart_says():
     assert heat / share == pytest.approx(315e3 * 1055.06 / 907.185, rel=0.03)
     in_much_water = heat - share * (branch.heat_of_crystallization - branch.heat_dilute) * crystal
     assert in_much_water < 0.92 * 45.4 * 2326.0
+
+
+def test_ammonium_sulfate_as_two_calorimeters_have_it():
+    """Its heat of solution in much water by enthalpies of formation, 6.6 kJ/mol (Wagman, 1982, recalled), and
+    what Clegg's coefficients say of the rest, 0.3: by the slope of the solubility, which knows of neither.
+    """
+    branch = session().solute("ammonium sulfate").branches[0]
+    assert float(branch.heat_of_crystallization) * 0.13214 == pytest.approx(6.9e3, rel=0.08)
+
+
+def test_calcium_chloride_hexahydrate_is_near_its_heat_of_melting():
+    """It melts at 29.8 °C, a few kelvins above where its heat is given, with 190 kJ/kg (recalled)."""
+    system = session().solute("calcium chloride")
+    branch = system.branch("calcium chloride hexahydrate")
+    per_crystal = float(branch.heat_of_crystallization) / float(branch.hydrate_ratio)
+    assert per_crystal == pytest.approx(190e3, rel=0.1)
+
+
+def test_crystals_of_a_solution_that_is_cooled_and_boiled():
+    """Opened at holooly.com (McCabe, Smith and Harriott, example 27.1): 1000 kg with 30 % of magnesium
+    sulfate are cooled to 60 °F while 5 % of the water boils off: 261 kg of Epsom salt.
+    """
+    system = session().solute("magnesium sulfate")
+    T, salt, water = 60.0 / 1.8 + 255.372, 300.0, 700.0 * 0.95
+    s, hydrate = float(system.solubility(T)), 246.48 / 120.37
+    crystals = (salt - s * water) * hydrate / (1.0 - s * (hydrate - 1.0))
+    assert crystals == pytest.approx(261.0, rel=0.1)  # his chart leaves 24.5 % dissolved, the table less

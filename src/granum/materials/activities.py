@@ -16,9 +16,11 @@ from granum.core import flags
 from granum.materials.correlation import Missing
 from granum.materials.formulas.caustic import STRONGEST, caustic_vapor_pressure_olsson
 from granum.materials.formulas.activity import (
+    TERMS,
     WATER,
-    moller_function,
+    osmotic_coefficient,
     osmotic_coefficient_pitzer,
+    over_temperature,
     solvent_activity_raoult,
     water_activity_osmotic,
     water_activity_starzak_peacock,
@@ -28,9 +30,11 @@ SLACK = 0.51  # K: the limits of the source are rounded
 
 
 class ElectrolyteActivity(eqx.Module):
-    """Pitzer's equation for one salt in water, its parameters over temperature as Møller writes them.
+    """Pitzer's equation for one salt in water, with its parameters over temperature.
 
-    ``most`` is the most concentrated solution behind them, mol per kg of water.
+    ``most`` is the most concentrated solution behind them, mol per kg of water; ``exponents`` are those with
+    which beta one and two fade; ``beside`` the same from another source, where the coefficients of ions upon
+    each other go with that one.
     """
 
     molar_mass: float
@@ -43,7 +47,9 @@ class ElectrolyteActivity(eqx.Module):
     hottest: float = eqx.field(static=True)
     most: float = eqx.field(static=True)
     source: str = eqx.field(static=True)
-    beta_two: tuple[float, ...] = eqx.field(static=True, default=(0.0,) * 8)
+    beta_two: tuple[float, ...] = eqx.field(static=True, default=(0.0,) * TERMS)
+    exponents: tuple[float, float] = eqx.field(static=True, default=(2.0, 12.0))
+    beside: ElectrolyteActivity | None = None
     is_missing = False
 
     def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
@@ -55,10 +61,10 @@ class ElectrolyteActivity(eqx.Module):
         flags.record(flags.EXTRAPOLATED, outside, T, "temperature", key, cold, hot, self.source)
         flags.record(flags.EXTRAPOLATED, m > self.most, m, "salt_molality", key, 0.0, self.most, self.source)
         t = jnp.clip(T, cold, hot)
-        sets = (self.beta_zero, self.beta_one, self.c_phi, self.beta_two)
-        b0, b1, c, b2 = (moller_function(t, a) for a in sets)
+        sets = (self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
+        at = tuple(over_temperature(t, a) for a in sets)
         within = jnp.clip(m, 0.0, self.most)
-        phi = osmotic_coefficient_pitzer(within, b0, b1, c, t, *self.counts, *self.charges, b2)
+        phi = osmotic_coefficient(within, t, at, self.counts, self.charges, self.exponents)
         return water_activity_osmotic(m, phi, sum(self.counts))
 
 

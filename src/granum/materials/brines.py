@@ -24,7 +24,7 @@ from granum.core.i18n import _
 from granum.materials.activities import SLACK, ElectrolyteActivity
 from granum.materials.correlation import Owner
 from granum.materials.double_salts import DOUBLE_SALTS, DoubleSalt, in_salts
-from granum.materials.formulas.activity import WATER, debye_huckel_slope, moller_function
+from granum.materials.formulas.activity import TERMS, WATER, debye_huckel_slope, over_temperature
 from granum.materials.formulas.mixed_electrolytes import Coefficients, excess, log_activities
 from granum.materials.ions import Ions, ions_of
 from granum.materials.library import Library, session
@@ -45,16 +45,17 @@ PASSES = 8  # of Newton's method between two of them
 
 
 class Mixing(NamedTuple):
-    """A coefficient a + bT + c/T of ions upon each other, known from a source between two temperatures."""
+    """A coefficient of ions upon each other, a + bT + c/T and the further terms of Pitzer's coefficients over
+    temperature, known from a source between two temperatures.
+    """
 
-    value: tuple[float, float, float]
+    value: tuple[float, ...]
     source: str
     low: float = 273.15
     high: float = 373.15
 
     def at(self, T: Any) -> Any:
-        a, b, c = self.value
-        return a + b * T + c / T
+        return over_temperature(T, self.value)
 
 
 ROOM = (288.15, 308.15)  # K, where coefficients for 25 °C are taken as they are
@@ -184,21 +185,28 @@ class Brine(eqx.Module):
         split = len(cations)
         return tuple(cations[i] for i in self.ions[:split]), tuple(anions[i] for i in self.ions[split:])
 
+    def _law(self, system: SoluteSystem) -> ElectrolyteActivity:
+        """The water activity of a salt, by the coefficients that go with those of ions upon each other."""
+        law = system.activity_law
+        assert isinstance(law, ElectrolyteActivity)
+        return law if law.beside is None or len(self.salts) == 1 else law.beside
+
     def coefficients(self, T: Any) -> Coefficients:
         """Of Pitzer's equations at a temperature."""
         split = len(self.charges[0])
         cations, anions = self.ions[:split], self.ions[split:]
-        sets = np.zeros((len(cations), len(anions), 4, 8))
+        sets = np.zeros((len(cations), len(anions), 4, TERMS))
+        fades = np.zeros((2, len(cations), len(anions)))
         ends = np.zeros((2, len(cations), len(anions), 1))
         for system, p in zip(self.salts, self.parts, strict=True):
-            law, at = system.activity_law, (cations.index(p.cation), anions.index(p.anion))
-            assert isinstance(law, ElectrolyteActivity)
+            law, at = self._law(system), (cations.index(p.cation), anions.index(p.anion))
             sets[at], ends[0][at], ends[1][at] = (
                 (law.beta_zero, law.beta_one, law.c_phi, law.beta_two),
                 law.coldest,
                 law.hottest,
             )
-        binary = moller_function(jnp.clip(T, *ends), np.moveaxis(sets, -1, 0))
+            fades[(slice(None), *at)] = law.exponents
+        binary = over_temperature(jnp.clip(T, *ends), np.moveaxis(sets, -1, 0))
 
         theta, psi = _mixings(self.ions)
 
@@ -211,7 +219,8 @@ class Brine(eqx.Module):
         of_cations, of_anions = like(cations, anions), like(anions, cations)
         slope = debye_huckel_slope.function(T)
         zero, one, phi, two = (binary[..., k] for k in range(4))
-        return Coefficients(slope, zero, one, phi, *of_cations, *of_anions, two)
+        pairs = two if sets[..., 3, :].any() else 0.0
+        return Coefficients(slope, zero, one, phi, *of_cations, *of_anions, pairs, fades)
 
     def mixings(self) -> list[Mixing]:
         """What is known of the ions upon each other."""
@@ -236,8 +245,7 @@ class Brine(eqx.Module):
             jnp.where(counts > 0.0, molalities / np.where(counts > 0.0, counts, 1.0), jnp.inf), axis=1
         )
         for system, m in zip(self.salts, there, strict=True):
-            law = system.activity_law
-            assert isinstance(law, ElectrolyteActivity)
+            law = self._law(system)
             beyond = m > law.most * (1.0 + 1e-3)
             owner = Owner.of_property(system.name, "water activity", system.french)
             flags.record(flags.EXTRAPOLATED, beyond, m, "salt_molality", owner, 0.0, law.most, law.source)

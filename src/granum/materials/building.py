@@ -30,6 +30,7 @@ from granum.materials.activities import (
 )
 from granum.materials.correlation import Correlation, Missing, Owner, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
+from granum.materials.formulas.activity import TERMS, usual_exponents
 from granum.materials.formulas.solutions import (
     dynamic_viscosity_laliberte,
     liquid_density_laliberte,
@@ -37,7 +38,15 @@ from granum.materials.formulas.solutions import (
 )
 from granum.materials.mixing_heats import CausticMixing
 from granum.materials.salts import Salt
-from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SaltEntry, SolidEntry, SoluteEntry
+from granum.materials.schema import (
+    ActivityEntry,
+    BranchEntry,
+    FluidEntry,
+    PropertyEntry,
+    SaltEntry,
+    SolidEntry,
+    SoluteEntry,
+)
 from granum.materials.solids import Solid
 from granum.materials.solutes import (
     BASES,
@@ -385,21 +394,29 @@ def _activity(key: str, entry: SoluteEntry, solvent: Fluid) -> Any:
     if found.form == "raoult":
         return IdealActivity(entry.molar_mass, solvent.molar_mass, float(found.ions))
 
-    def eight(a: list[float]) -> tuple[float, ...]:
-        return tuple((*a, *[0.0] * 7)[:8])
+    return _pitzer(entry.molar_mass, found)
+
+
+def _pitzer(molar_mass: float, found: ActivityEntry) -> ElectrolyteActivity:
+    """Pitzer's equation with the coefficients of a file."""
+
+    def whole(a: list[float]) -> tuple[float, ...]:
+        return tuple((*a, *[0.0] * TERMS)[:TERMS])
 
     return ElectrolyteActivity(
-        molar_mass=entry.molar_mass,
+        molar_mass=molar_mass,
         counts=(float(found.counts[0]), float(found.counts[1])),
         charges=(float(found.charges[0]), float(found.charges[1])),
-        beta_zero=eight(found.beta_zero),
-        beta_one=eight(found.beta_one),
-        c_phi=eight(found.c_phi),
-        beta_two=eight(found.beta_two),
+        beta_zero=whole(found.beta_zero),
+        beta_one=whole(found.beta_one),
+        c_phi=whole(found.c_phi),
+        beta_two=whole(found.beta_two),
         coldest=found.range[0],
         hottest=found.range[1],
         most=found.molality,
         source=found.source,
+        exponents=found.exponents or usual_exponents(*found.charges),
+        beside=None if found.beside is None else _pitzer(molar_mass, found.beside),
     )
 
 

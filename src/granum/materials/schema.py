@@ -168,9 +168,10 @@ class BranchEntry(_Strict):
 
 
 class ActivityEntry(_Strict):
-    """Water activity of the solutions: ``form`` is "pitzer", "starzak_peacock", "olsson" or "raoult". Each Pitzer
-    parameter is eight coefficients of Møller's function of temperature, or one number at all temperatures.
-    Raoult's law takes the ``ions`` of a molecule.
+    """Water activity of the solutions: ``form`` is "pitzer", "starzak_peacock", "olsson" or
+    "raoult". Each Pitzer
+    parameter is one number at all temperatures, eight coefficients of Møller's function of temperature, or
+    ten: then those of 1/T² and ln(T - 225) follow. Raoult's law takes the ``ions`` of a molecule.
     """
 
     form: Literal["pitzer", "starzak_peacock", "olsson", "raoult"]
@@ -181,6 +182,10 @@ class ActivityEntry(_Strict):
     beta_one: list[float] = []
     beta_two: list[float] = [0.0]
     c_phi: list[float] = []
+    exponents: tuple[float, float] | None = None
+    """With which beta one and two fade: 2 and 12, or 1.4 and 12 of ions that pair, where none are given."""
+    beside: ActivityEntry | None = None
+    """Another set of Pitzer parameters, taken beside the ions of other salts."""
     range: tuple[float, float] = (273.15, 423.15)
     molality: float = Field(default=0.0, ge=0, description="largest, mol per kg of water")
     source: str
@@ -188,9 +193,9 @@ class ActivityEntry(_Strict):
     @model_validator(mode="after")
     def _whole(self) -> ActivityEntry:
         sets = (self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
-        if self.form == "pitzer" and (self.molality <= 0.0 or any(len(a) not in (1, 8) for a in sets)):
+        if self.form == "pitzer" and (self.molality <= 0.0 or any(len(a) not in (1, 8, 10) for a in sets)):
             raise ValueError(
-                "the form 'pitzer' needs 'beta_zero', 'beta_one' and 'c_phi' of one or eight numbers, "
+                "the form 'pitzer' needs 'beta_zero', 'beta_one' and 'c_phi' of one, eight or ten numbers, "
                 "and the largest 'molality'"
             )
         return self

@@ -216,10 +216,11 @@ def _along(pair: Brine, temperature: float, low: float, high: float) -> tuple[An
 
 
 def _met(pair: Brine, temperature: float, found: tuple[Any, Any, Any], deep: int) -> list[Border]:
-    """Borders of fields between neighbours of a row of saturated solutions."""
+    """Borders of fields between neighbours of a row of saturated solutions, of those that were found."""
     shares, molalities, ratios = found
+    known = np.isfinite(ratios).all(axis=1)
     first, borders = np.argmax(ratios, axis=1), []
-    for i in np.flatnonzero(np.diff(first)):
+    for i in np.flatnonzero(np.diff(first) * known[:-1] * known[1:]):
         if deep:
             inside = _along(pair, temperature, shares[i], shares[i + 1])
             borders += _met(pair, temperature, inside, deep - 1)

@@ -43,17 +43,46 @@ SolubilitySlope = Annotated[
 Waters = Annotated[Number, Within(0.0, 24.0)]
 
 
-def moller_function(T: Any, a: Any) -> Any:
-    """How Møller and Greenberg write a parameter over temperature: eight coefficients."""
+TERMS = 10  # of a parameter over temperature
+
+
+def over_temperature(T: Any, a: Any) -> Any:
+    """A parameter over temperature: eight terms of Møller and Greenberg, then Appelo's and Steiger's."""
+    terms = (
+        1.0,
+        T,
+        1.0 / T,
+        jnp.log(T),
+        1.0 / (T - 263.0),
+        T**2,
+        1.0 / (680.0 - T),
+        1.0 / (T - 227.0),
+        1.0 / T**2,
+        jnp.log(T - 225.0),
+    )
+    return sum(coefficient * term for coefficient, term in zip(a, terms, strict=False))
+
+
+def usual_exponents(one_charge: float, other_charge: float) -> tuple[float, float]:
+    """Those with which Pitzer's coefficients fade for two charges without sign: two ions with charges of two
+    or more pair.
+    """
+    return (1.4 if min(one_charge, other_charge) >= 2 else 2.0), 12.0
+
+
+def osmotic_coefficient(
+    m: Any, T: Any, sets: Any, counts: Any, charges: Any, exponents: tuple[Any, Any]
+) -> Any:
+    """By Pitzer's equation, from beta zero, one, two and C, and the exponents of the middle two."""
+    (nc, na), (zc, za), (zero, one, two, c) = counts, charges, sets
+    nu = nc + na
+    root = jnp.sqrt(jnp.maximum(0.5 * m * (nc * zc**2 + na * za**2), 1e-24))
+    second = zero + one * jnp.exp(-exponents[0] * root) + two * jnp.exp(-exponents[1] * root)
     return (
-        a[0]
-        + a[1] * T
-        + a[2] / T
-        + a[3] * jnp.log(T)
-        + a[4] / (T - 263.0)
-        + a[5] * T**2
-        + a[6] / (680.0 - T)
-        + a[7] / (T - 227.0)
+        1.0
+        - zc * za * debye_huckel_slope(T) * root / (1.0 + 1.2 * root)
+        + m * 2.0 * nc * na / nu * second
+        + m**2 * 2.0 * (nc * na) ** 1.5 / nu * c
     )
 
 
@@ -72,7 +101,7 @@ def debye_huckel_slope(temperature: Temperature) -> PositiveNumber:
     >>> round(debye_huckel_slope(temperature=298.15), 4)
     0.3915
     """
-    return moller_function(temperature, SLOPE)
+    return over_temperature(temperature, SLOPE)
 
 
 @formula(
@@ -107,18 +136,15 @@ def osmotic_coefficient_pitzer(
     >>> round(osmotic_coefficient_pitzer(6.0, 0.0765, 0.2664, 0.00127), 2)
     1.27
     """
-    m, nc, na = salt_molality, cation_count, anion_count
     zc, za = cation_charge_number, anion_charge_number
-    nu = nc + na
-    root = jnp.sqrt(jnp.maximum(0.5 * m * (nc * zc**2 + na * za**2), 1e-24))
     pairing = jnp.minimum(zc, za) >= 2.0
-    second = pitzer_beta_zero + pitzer_beta_one * jnp.exp(jnp.where(pairing, -1.4, -2.0) * root)
-    second = second + pitzer_beta_two * jnp.exp(-12.0 * root)
-    return (
-        1.0
-        - zc * za * debye_huckel_slope(temperature) * root / (1.0 + 1.2 * root)
-        + m * 2.0 * nc * na / nu * second
-        + m**2 * 2.0 * (nc * na) ** 1.5 / nu * pitzer_c
+    return osmotic_coefficient(
+        salt_molality,
+        temperature,
+        (pitzer_beta_zero, pitzer_beta_one, pitzer_beta_two, pitzer_c),
+        (cation_count, anion_count),
+        (zc, za),
+        (jnp.where(pairing, 1.4, 2.0), 12.0),
     )
 
 

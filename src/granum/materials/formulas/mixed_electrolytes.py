@@ -10,20 +10,17 @@ import numpy as np
 
 from granum.core import formula
 from granum.core.kinds import PositiveNumber
-from granum.materials.formulas.activity import WATER
+from granum.materials.formulas.activity import WATER, usual_exponents
 
-B, ALPHA = 1.2, 2.0
-PAIRED, PAIRS = (
-    1.4,
-    12.0,
-)  # in place of ALPHA where both ions have charges of two or more, and for their pairs
+B = 1.2
 
 
 class Coefficients(NamedTuple):
     """Those of a mixture at a temperature.
 
     slope: of Debye and Hückel.
-    beta_zero, beta_one, c_phi: of each cation (rows) with each anion; beta_two too, for ions that pair.
+    beta_zero, beta_one, c_phi: of each cation (rows) with each anion; beta_two too, where there is any.
+    exponents: with which beta one and two of each cation with each anion fade, the usual ones unless given.
     theta_cations, psi_cations: of two cations, and of both with each anion; zeros where there is one.
     theta_anions, psi_anions: of two anions, and of both with each cation.
     """
@@ -37,6 +34,7 @@ class Coefficients(NamedTuple):
     theta_anions: Any
     psi_anions: Any
     beta_two: Any = 0.0
+    exponents: Any = None
 
 
 @formula(
@@ -78,14 +76,16 @@ def excess(m: Any, charges: tuple[tuple[int, ...], tuple[int, ...]], given: Coef
     z = jnp.array([*positive, *negative], dtype=float)
     I, charge = 0.5 * jnp.sum(m * z**2), 0.5 * jnp.sum(m * z)
     root = jnp.sqrt(I)
-    pairing = np.minimum.outer(positive, negative) >= 2
-    g = _fading((np.where(pairing, PAIRED, ALPHA) if pairing.any() else ALPHA) * root)
+    fades = given.exponents
+    if fades is None:
+        usual = [[usual_exponents(c, a) for a in negative] for c in positive]
+        fades = np.moveaxis(np.array(usual), -1, 0)
     cations, anions = m[: len(positive)], m[len(positive) :]
     third = given.c_phi / (2.0 * np.sqrt(np.outer(positive, negative)))
     total = -given.slope * 4.0 * I / B * jnp.log1p(B * root)
-    second = given.beta_zero + given.beta_one * g
-    if pairing.any():
-        second = second + given.beta_two * _fading(PAIRS * root)
+    second = given.beta_zero + given.beta_one * _fading(fades[0] * root)
+    if not isinstance(given.beta_two, float):  # none at all is most often so
+        second = second + given.beta_two * _fading(fades[1] * root)
     total = total + 2.0 * cations @ (second + charge * third) @ anions
     if len(positive) == 2:
         mixing = 2.0 * (given.theta_cations + _unlike(*positive, I, given.slope))
