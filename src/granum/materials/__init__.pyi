@@ -1,6 +1,7 @@
 """Materials: fluids, solids, solutes and their solubility, gas–vapor pairs."""
 
 from granum.materials.activities import (
+    CausticActivity as CausticActivity,
     ElectrolyteActivity as ElectrolyteActivity,
     IdealActivity as IdealActivity,
     NoActivity as NoActivity,
@@ -34,6 +35,10 @@ from granum.materials.formulas.activity import (
     solvent_activity_raoult as solvent_activity_raoult,
     water_activity_osmotic as water_activity_osmotic,
     water_activity_starzak_peacock as water_activity_starzak_peacock,
+)
+from granum.materials.formulas.caustic import (
+    caustic_enthalpy_olsson as caustic_enthalpy_olsson,
+    caustic_vapor_pressure_olsson as caustic_vapor_pressure_olsson,
 )
 from granum.materials.formulas.correlations import (
     correlation_aly_lee as correlation_aly_lee,
@@ -151,6 +156,9 @@ from granum.materials.library import (
     salt as salt,
     solid as solid,
     solute as solute,
+)
+from granum.materials.mixing_heats import (
+    CausticMixing as CausticMixing,
 )
 from granum.materials.pairs import (
     GasVapor as GasVapor,

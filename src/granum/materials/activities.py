@@ -14,7 +14,6 @@ import jax.numpy as jnp
 
 from granum.core import flags
 from granum.materials.correlation import Missing
-from granum.materials.formulas.caustic import STRONGEST, caustic_vapor_pressure_olsson
 from granum.materials.formulas.activity import (
     TERMS,
     WATER,
@@ -25,6 +24,7 @@ from granum.materials.formulas.activity import (
     water_activity_osmotic,
     water_activity_starzak_peacock,
 )
+from granum.materials.formulas.caustic import STRONGEST, caustic_vapor_pressure_olsson
 
 SLACK = 0.51  # K: the limits of the source are rounded
 

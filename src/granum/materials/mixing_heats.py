@@ -27,7 +27,7 @@ class CausticMixing(eqx.Module):
     coldest, hottest = 273.15, 477.15
 
     def __call__(self, temperature: Any, solute: Any, solvent: Any) -> Any:
-        """What these amounts hold over their parts, J for kg or W for kg/s; nothing in much water at 25 °C."""
+        """What these amounts (kg or kg/s) hold over their parts, J or W; nothing in much water at 25 °C."""
         total = solute + solvent
         w = jnp.clip(solute / jnp.where(total > 0.0, total, 1.0), THINNEST, STRONGEST)
         return solute * (self._apparent(temperature, w) - self._apparent(298.15, DILUTE))

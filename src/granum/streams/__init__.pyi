@@ -82,6 +82,7 @@ from granum.streams.formulas.stirring import (
 )
 from granum.streams.from_materials import (
     GasProperty as GasProperty,
+    Mixing as Mixing,
     SolutionViscosity as SolutionViscosity,
     mixture_of as mixture_of,
 )

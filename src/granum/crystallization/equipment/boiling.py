@@ -108,8 +108,8 @@ def flashed(feed: Stream, found: Roles, heat: Any, temperature: Any) -> tuple[An
     if mixture.mixing is not None:
         raise CaseError(
             _(
-                "A liquor with a heat of mixing is not flashed here: thicken it in an evaporator, and cool it "
-                "in a crystallizer of a given temperature."
+                "A liquor with a heat of mixing is not flashed here: thicken it in an evaporator, cool it in "
+                "a crystallizer of a given temperature."
             )
         )
     liquid, solid, gas = (mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))

@@ -40,8 +40,9 @@ def _polynomial(coefficients: tuple[float, ...], x: Any) -> Any:
 @formula(
     source="olsson1997",
     equation=(
-        r"h = \frac{\sum_{i=0}^3 a_i X_w^i}{\sum_{i=0}^4 b_i X_w^i} + t\sum_{i=0}^8 c_i X_w^i + t^2\sum_{i=0}^7 d_i X_w^i "
-        r"+ t^3\sum_{i=0}^7 e_i X_w^i,\quad X_w = 1 - x,\quad t = T - 273.15\,\mathrm K"
+        r"h = \frac{\sum_{i=0}^3 a_i X_w^i}{\sum_{i=0}^4 b_i X_w^i} + t\sum_{i=0}^8 c_i X_w^i + "
+        r"t^2\sum_{i=0}^7 d_i X_w^i + t^3\sum_{i=0}^7 e_i X_w^i,\quad X_w = 1 - x,\quad "
+        r"t = T - 273.15\,\mathrm K"
     ),
     fitted={"temperature": (ZERO_CELSIUS, 477.15), "solute_mass_fraction": (0.0, STRONGEST)},
     typical={"temperature": (300.0, 400.0), "solute_mass_fraction": (0.05, 0.5)},
@@ -70,8 +71,8 @@ def caustic_enthalpy_olsson(temperature: Temperature, solute_mass_fraction: Mass
 @formula(
     source="olsson1997",
     equation=(
-        r"\ln\frac{p}{1\,\mathrm{kPa}} = \frac{A + B\,t}{t - C},\quad A, B, C = \sum_i a_i\left[\ln(1-x)\right]^i,\quad "
-        r"t = T - 273.15\,\mathrm K"
+        r"\ln\frac{p}{1\,\mathrm{kPa}} = \frac{A + B\,t}{t - C},\quad A, B, C = "
+        r"\sum_i a_i\left[\ln(1-x)\right]^i,\quad t = T - 273.15\,\mathrm K"
     ),
     fitted={"temperature": (ZERO_CELSIUS, 473.15), "solute_mass_fraction": (0.0, STRONGEST)},
     typical={"temperature": (300.0, 400.0), "solute_mass_fraction": (0.05, 0.5)},
