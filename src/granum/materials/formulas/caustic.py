@@ -71,7 +71,7 @@ def caustic_enthalpy_olsson(temperature: Temperature, solute_mass_fraction: Mass
 @formula(
     source="olsson1997",
     equation=(
-        r"\ln\frac{p}{1\,\mathrm{kPa}} = \frac{A + B\,t}{t - C},\quad A, B, C = "
+        r"\ln\frac{p_v}{1\,\mathrm{kPa}} = \frac{A + B\,t}{t - C},\quad A, B, C = "
         r"\sum_i a_i\left[\ln(1-x)\right]^i,\quad t = T - 273.15\,\mathrm K"
     ),
     fitted={"temperature": (ZERO_CELSIUS, 473.15), "solute_mass_fraction": (0.0, STRONGEST)},
