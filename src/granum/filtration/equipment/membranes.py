@@ -141,8 +141,12 @@ class _Plant(Unit):
             solid=retentate.solid + permeate.solid, liquid=retentate.liquid + permeate.liquid
         )
         there = whole.at_enthalpy(entering + power)
-        parts = (part.replace(temperature=there.temperature) for part in (retentate, permeate))
-        return Parted(*settled(entering + power, *parts), power)
+        retentate, permeate = settled(
+            entering + power,
+            retentate.replace(temperature=there.temperature),
+            permeate.replace(temperature=there.temperature),
+        )
+        return Parted(retentate, permeate, power)
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         chain, count = made.inside, len(made.inside.flux)

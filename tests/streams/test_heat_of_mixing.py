@@ -1,0 +1,54 @@
+"""Caustic liquor, whose parts hold another heat apart than together, through units that part it, thin it or
+dry it: each closes its energy at shares of lye drawn at random.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import granum as gr
+from granum.core.errors import GranumError
+
+LYE, CRYSTAL = "sodium hydroxide", "sodium hydroxide monohydrate"
+# what is fed with lye, what solid there is beside its crystal where it dries, the strongest lye
+UNITS = {
+    "filtration.plate_and_frame_press": ("feed", "calcite", 0.4),
+    "filtration.rotary_vacuum_drum": ("feed", "calcite", 0.4),
+    "filtration.reverse_osmosis": ("feed", None, 0.04),
+    "streams.adiabatic_humidifier": ("water", None, 0.3),
+    "streams.heater": ("feed", None, 0.5),
+    "drying.tunnel_dryer": ("feed", "cellulose", 0.1),
+    "drying.rotary_dryer": ("feed", "quartz", 0.1),
+    "drying.well_mixed_dryer": ("feed", "quartz", 0.1),
+}
+
+
+@pytest.mark.parametrize("key", UNITS)
+@pytest.mark.parametrize("seed", range(2))
+def test_it_closes_with_lye(key: str, seed: int) -> None:
+    port, solid, most = UNITS[key]
+    share = most * float(np.random.default_rng(seed).uniform(0.2, 1.0))
+    mixture: dict[str, Any] = {"liquids": f"water,{LYE}"}
+    fed: dict[str, Any] = {"liquid": {"water": 1.0 - share, LYE: share}}
+    if solid is not None:
+        mixture["solids"] = f"{solid},{CRYSTAL}"
+        fed["solid"] = {solid: 1.0, CRYSTAL: 0.0}
+    elif port == "water":
+        mixture["solids"] = CRYSTAL
+    run = gr.alone(key, mixture=mixture, **{port: fed}).solve()
+    assert run.audit["mass_closure"] < 1e-9
+    assert run.audit["energy_closure"] < 1e-9
+    assert float(run.streams[port].liquid[1]) > 0.0
+
+
+def test_a_vacuum_crystallizer_says_that_it_flashes_no_lye() -> None:
+    words = {
+        "mixture": {"liquids": f"water,{LYE}", "solids": CRYSTAL},
+        "feed": {"liquid": {"water": 0.45, LYE: 0.55}},
+        "solubility": {"law": "library_solubility", "solute": LYE},
+    }
+    with pytest.raises(GranumError, match="heat of mixing"):
+        gr.alone("crystallization.vacuum_crystallizer", **words).solve()
