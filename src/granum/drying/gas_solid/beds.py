@@ -85,7 +85,7 @@ class BedDryer(CellDryer):
         return Bed(matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.lost)
 
     def through(self, feed: Stream, gas: Stream) -> Through:
-        found, share = _passed(self, feed, gas), self.bypass(feed, gas)
+        found, share = _passed(self, feed, gas), self.bypass(counted(feed), gas)  # as the bed counts it
         humid = HumidMixture(feed.mixture)
         vapor = humid.vapor_per_carrier(gas) * humid.carrier_flow(gas)
         past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
