@@ -104,3 +104,25 @@ def test_marks_of_french_never_begin_a_line(page: Page) -> None:
 def test_code_keeps_its_spaces_in_french() -> None:
     with language("fr"):
         assert "\u00a0" not in alone_form("comminution.bond_mill", {})["python"]
+
+
+def test_a_machine_on_paper_has_all_that_was_calculated_with(page: Page) -> None:
+    page.open("calculate/drying.spray_dryer", "fr")
+    page.one("[data-figure]")
+    page.browser.execute_script("dispatchEvent(new Event('beforeprint'))")
+    inlets = page.all("details.inlet")
+    assert len(inlets) > 1
+    assert all(inlet.get_attribute("open") for inlet in inlets)
+    page.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    page.browser.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride",
+        {"width": 690, "height": 900, "deviceScaleFactor": 1, "mobile": False},  # A4 within its margins
+    )
+    cut = page.browser.execute_script(
+        "return [...document.querySelectorAll('form select.alone')].filter((e) => e.offsetParent)"
+        ".filter((e) => e.getBoundingClientRect().width + 1 < e.scrollWidth).map((e) => e.id)"
+    )
+    page.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    assert not cut
+    page.browser.execute_script("dispatchEvent(new Event('afterprint'))")
+    assert [bool(inlet.get_attribute("open")) for inlet in inlets] == [i == 0 for i in range(len(inlets))]
