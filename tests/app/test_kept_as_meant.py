@@ -126,3 +126,14 @@ def test_a_machine_on_paper_has_all_that_was_calculated_with(page: Page) -> None
     assert not cut
     page.browser.execute_script("dispatchEvent(new Event('afterprint'))")
     assert [bool(inlet.get_attribute("open")) for inlet in inlets] == [i == 0 for i in range(len(inlets))]
+
+
+def test_a_substance_is_found_without_its_last_letter_and_another_word_stays(page: Page) -> None:
+    page.open("lines", "fr")
+    page.button("Nouvelle ligne").click()
+    page.one("input[name=enters][value=suspension]").click()
+    page.type("#new-solid", "Granit").send_keys(Keys.TAB)
+    page.until(lambda: page.one("#new-solid").get_attribute("value").casefold() == "granite")
+    page.type("#new-solid", "granulat").send_keys(Keys.TAB)
+    page.settle()
+    assert page.one("#new-solid").get_attribute("value") == "granulat"
