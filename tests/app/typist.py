@@ -235,8 +235,8 @@ class Typist:
         assert _same(given, values, registry.find(self.key).card.parameters), (
             f"result of {given}, on the screen is {values}"
         )
-        texts = dict(last["shown"])
-        assert all(text == texts.get(name, text) for name, text in fresh if name in texts)
+        texts = {name: text.replace("\u00a0", " ") for name, text in last["shown"]}
+        assert all(text.replace("\u00a0", " ") == texts[name] for name, text in fresh if name in texts)
 
 
 def _close(one: tuple[float, ...], other: tuple[float, ...]) -> bool:

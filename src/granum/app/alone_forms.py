@@ -9,7 +9,7 @@ from typing import Any
 
 from granum.app.case_forms import FEED_KINDS, by_volume, case_value
 from granum.app.closed_lists import choose_within, materials
-from granum.app.forms import card_form, fields_of
+from granum.app.forms import card_form, fields_of, offered_unit
 from granum.cases.alone import PHASES, case_text, tables
 from granum.cases.sizing import duty
 from granum.core import registry
@@ -35,7 +35,11 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
     name = key.split(".", 1)[1]
     form = card_form(key)
     unit = found["units"][name]
-    values = {p["name"]: case_value(unit[p["name"]]) for p in form["parameters"] if p["name"] in unit}
+    values = {
+        p.name: offered_unit(case_value(unit[p.name]), p)
+        for p in registry.find(key).card.parameters
+        if p.name in unit
+    }
     choose_within(form["parameters"], found["mixture"])
     groups = []
     for port, feed in found["feeds"].items():

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from granum.app.closed_lists import choose_within
-from granum.app.forms import card_form, laws_of, options, typed
+from granum.app.forms import card_form, laws_of, offered_unit, options, typed
 from granum.app.own_substances import form_row, own_substances
 from granum.cases.building import completed, share_of_feed
 from granum.cases.outline import Outline, outline, table_of
@@ -252,7 +252,9 @@ def _unit(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         "summary": form["summary"],
         "parameters": form["parameters"],
         "limits": form["limits_shown"],
-        "values": {p.name: case_value(table[p.name]) for p in card.parameters if p.name in table},
+        "values": {
+            p.name: offered_unit(case_value(table[p.name]), p) for p in card.parameters if p.name in table
+        },
         "figures": [_figure(p) for p in card.outputs if p.kind is not None and not p.series],
         "duty": _duty(card),
     }

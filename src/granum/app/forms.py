@@ -326,9 +326,26 @@ def as_typed(card: Card, given: Mapping[str, Any]) -> dict[str, str]:
         found = read_number(text) if isinstance(text, str) and p.kind and not p.series else None
         if p.kind and found is not None and found[1] and _known(found[1], p.kind):
             number, unit = found
-            unit = next((u for u in p.units if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
-            told[p.name] = f"{format_number(number, 9)} {pretty_unit(unit)}".strip()
+            told[p.name] = f"{format_number(number, 9)} {pretty_unit(_offered(unit, p))}".strip()
     return told
+
+
+def offered_unit(text: str, p: Parameter) -> str:
+    """A quantity in the unit that its field offers, where it is written in another name of that unit: 12
+    kW*hour/tonne as 12 kWh/tonne.
+    """
+    found = read_number(text) if p.kind and not p.series else None
+    if p.kind is None or found is None or not found[1] or not text.endswith(found[1]):
+        return text
+    unit = _offered(found[1], p)
+    return text if unit == found[1] else f"{text.removesuffix(found[1]).strip()} {unit}"
+
+
+def _offered(unit: str, p: Parameter) -> str:
+    """The unit that a parameter offers in place of one that is the same."""
+    if p.kind is None or not _known(unit, p.kind):
+        return unit
+    return next((u for u in p.units if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
 
 
 def _listed(values: np.ndarray, unit: str, kind: Kind) -> str:

@@ -91,7 +91,7 @@ def feed(
         if abs(found.sum() - 1.0) > 1e-6:
             raise InputError(
                 _("{where}: the shares of the {phase} add up to {total}, not 1.").format(
-                    where=where, phase=_(phase), total=f"{found.sum():.6g}"
+                    where=where, phase=_(phase), total=format_number(float(found.sum()), 6)
                 )
             )
         return found / found.sum()

@@ -44,7 +44,7 @@ function Work({ card, given }) {
   const [drawn, setDrawn] = useState({});
   const [copied, copy] = useCopying();
   const words = JSON.stringify(values);
-  useEffect(() => replaceLink('calculate', card.card, values), [words]);
+  useEffect(() => replaceLink('calculate', card.card, values, true), [words]);
   const form = useAnswer(
     (signal) => ask(`/api/alone/${card.card}`, values, { signal }),
     [words],

@@ -1,7 +1,7 @@
 // State in the link, language, theme, requests: shared by every page.
 import {
   h,
-  html,
+  html as drawn,
   render,
   useState,
   useEffect,
@@ -12,7 +12,7 @@ import {
 } from './vendor/htm-preact.js';
 import { english, french } from './strings.fr.js';
 
-export { h, html, render, useState, useEffect, useLayoutEffect, useRef, useMemo, useCallback };
+export { h, render, useState, useEffect, useLayoutEffect, useRef, useMemo, useCallback };
 
 // ---- state in the link: #/page/key?name=value&… ----------------------------------------------------
 let links = 0;
@@ -27,16 +27,17 @@ export function readLink() {
   };
 }
 
-export function link(page, key = '', values = {}) {
+/** `emptied`: whether a field that was emptied is told, where one that is not named is as in the example. */
+export function link(page, key = '', values = {}, emptied = false) {
   const kept = Object.entries(values).filter(
-    ([, value]) => value !== '' && value !== undefined && value !== null,
+    ([, value]) => (emptied || value !== '') && value !== undefined && value !== null,
   );
   const query = new URLSearchParams(kept).toString();
   return `#/${page}${key ? '/' + encodeURIComponent(key) : ''}${query ? '?' + query : ''}`;
 }
 
-export function replaceLink(page, key, values) {
-  history.replaceState(null, '', link(page, key, values));
+export function replaceLink(page, key, values, emptied = false) {
+  history.replaceState(null, '', link(page, key, values, emptied));
   keepPlace(page);
 }
 
@@ -114,8 +115,35 @@ export function apply() {
 /** The colon of the language: French puts a no-break space before it. */
 export const colon = () => (settings.language === 'fr' ? '\u00a0:' : ':');
 
-/** French as it is printed: the apostrophe of print, and no line that begins with a mark. */
-const spaced = (text) => text.replaceAll("'", '’').replace(/ (?=[:;?!»%])|(?<=«) /g, '\u00a0');
+/** French as it is printed: no line begins with a mark; words of the page have the apostrophe of print besides. */
+const unbroken = (text) => text.replace(/(?<=\S) (?=[:;?!»%])|(?<=«) /g, '\u00a0');
+const spaced = (text) => unbroken(text.replaceAll("'", '’'));
+
+/** Of each value of a template whether it is text between tags, which is printed; attributes and code stay as they are. */
+const places = new Map();
+function printed(parts) {
+  if (!places.has(parts)) {
+    let within = false;
+    places.set(
+      parts,
+      parts.map((part) => {
+        const [open, close] = [part.lastIndexOf('<'), part.lastIndexOf('>')];
+        if (open >= 0 || close >= 0) within = close > open && !/<(pre|code|textarea)\b[^<]*>$/.test(part);
+        return within;
+      }),
+    );
+  }
+  return places.get(parts);
+}
+
+/** What is drawn; what the server says in French is printed as such here, and nowhere else. */
+export const html = (parts, ...values) =>
+  drawn(
+    parts,
+    ...(settings.language === 'fr'
+      ? values.map((value, i) => (typeof value === 'string' && printed(parts)[i] ? unbroken(value) : value))
+      : values),
+  );
 
 export function t(text, values = {}) {
   const found =

@@ -13,17 +13,28 @@ const heading = () =>
 /** The address to type again: that of a line without the whole case in it, which nobody types. */
 const address = () => location.href.replace(/[?&]case=[^&]*/, '');
 
+/** Groups of a form that are folded although something is told in them: a sheet without it could not be calculated again. */
+const folded = () =>
+  [...document.querySelectorAll('main form details:not([open])')].filter(
+    (group) =>
+      group.matches('.inlet') || [...group.querySelectorAll('input')].some((field) => field.value !== ''),
+  );
+
 function Printed() {
   const [, again] = useState(0);
   useEffect(() => {
     let kept = '';
+    let opened = [];
     const before = () => {
+      opened = folded();
+      for (const group of opened) group.open = true;
       kept = document.title;
       document.title = `${heading()} · Granum`; // the name of the file that is printed to
       again((count) => count + 1);
     };
     const after = () => {
       document.title = kept;
+      for (const group of opened) group.open = false;
     };
     addEventListener('beforeprint', before);
     addEventListener('afterprint', after);

@@ -41,6 +41,7 @@ function held(text, p) {
   const offered = p.units?.find(
     (u) => u.unit.replaceAll('^', '') === unit.replaceAll('^', '') || u.label === unit,
   ); // m2: m^2
+  if (!unit && !/\p{Nd}/u.test(number)) return { number, unit: held('', p).unit }; // no number, such as a minus alone
   return { number, unit: unit ? named(offered?.unit ?? unit) : named(p.unit) };
 }
 
@@ -89,6 +90,7 @@ addEventListener(
   'pointerdown',
   () => {
     pressed = true;
+    document.activeElement?.closest('.field')?.classList.add('held'); // its bounds stay in sight
   },
   true,
 );
@@ -97,6 +99,7 @@ for (const end of ['pointerup', 'pointercancel'])
     end,
     () => {
       pressed = false;
+      setTimeout(() => document.querySelectorAll('.field.held').forEach((field) => field.classList.remove('held')));
     },
     true,
   );

@@ -25,13 +25,19 @@ const plain = (text) =>
     .trim()
     .toLowerCase();
 
+/** Whether a word of five letters or more is that of a substance but for its last two letters. */
+const begins = (row, word) =>
+  word.length >= 5 && [row.label, row.value].map(plain).some((name) => name.startsWith(word) && name.length <= word.length + 2);
+
 /** One of a list, searched by typing; what is not in the list is handed on as it was typed. */
 export function Choice({ id, label, rows, value, pick, quiet }) {
   const shown = rows.find((row) => row.value === value)?.label ?? value;
   const [typed, setTyped] = useState(null);
   useEffect(() => setTyped(null), [value]);
   const settle = (text) => {
-    const found = rows.find((row) => plain(row.label) === plain(text) || plain(row.value) === plain(text));
+    const whole = rows.find((row) => plain(row.label) === plain(text) || plain(row.value) === plain(text));
+    const near = rows.filter((row) => begins(row, plain(text)));
+    const found = whole ?? (near.length === 1 ? near[0] : null); // granit is granite, where nothing else begins so
     pick(found ? found.value : text.trim());
     setTyped(null);
   };
