@@ -22,6 +22,7 @@ from granum.cases.sections import sections
 from granum.core import registry
 from granum.core.errors import CaseError, GranumError, InputError
 from granum.core.i18n import _, language
+from granum.core.index import entries
 from granum.flowsheet.drawing import draw
 from granum.flowsheet.symbols import word_of
 
@@ -375,6 +376,10 @@ def test_text_that_is_no_case_is_refused_in_words() -> None:
         ),
         ("suspension", ["settling.thickener", "filtration.chamber_press", "cyclones.hydrocyclone"]),
         ("moist_solid", ["drying.well_mixed_dryer", "drying.convective_dryer", "drying.rotary_dryer"]),
+        (
+            "broken_solid",
+            ["comminution.cone_crusher", "comminution.ball_mill", "comminution.vibrating_screen"],
+        ),
         ("dusty_gas", ["cyclones.gas_cyclone"]),
     ],
 )
@@ -383,6 +388,21 @@ def test_a_line_is_solved_as_soon_as_its_first_piece_stands(enters: str, models:
     for model in models:
         run = read_text(b.add_unit(begun, model, origin=enters)).solve()
         assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
+
+
+def test_what_a_line_of_dry_solids_cannot_have_is_refused_in_words() -> None:
+    """Every machine on a line without liquid or gas: solved and closed, or a message that says why not."""
+    begun, solved = b.begin("Quarry", "broken_solid", solid="granite"), []
+    for model in (key for key, entry in entries().items() if entry.sort == "equipment"):
+        try:
+            run = read_text(b.add_unit(begun, model, origin="broken_solid")).solve()
+        except GranumError as refused:
+            assert str(refused)
+            continue
+        assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
+        solved.append(model)
+    assert {"comminution.cone_crusher", "comminution.triple_deck_screen", "conveying.hopper"} <= set(solved)
+    assert not any(model.startswith(("settling.", "drying.")) for model in solved)
 
 
 def test_a_line_of_another_size_gets_machines_of_that_size() -> None:

@@ -1,5 +1,5 @@
-"""Grains wet with the solution of a salt that is no part of them: the crystals that stay change the solid that
-gas sees, and every balance must see the same one.
+"""Grains wet with the solution of a salt that is no part of them: the crystals that stay change the solid
+that gas sees, and every balance must see the same one.
 """
 
 from __future__ import annotations

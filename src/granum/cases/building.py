@@ -121,7 +121,7 @@ def new_line(
     return f"{text}\n{own.strip()}\n" if own.strip() else text
 
 
-BEGINNINGS = ("solution", "suspension", "moist_solid", "dusty_gas")
+BEGINNINGS = ("solution", "suspension", "moist_solid", "broken_solid", "dusty_gas")
 
 
 def begin(
@@ -134,8 +134,8 @@ def begin(
     own: str = "",
 ) -> str:
     """A line with its first feed: a ``solution`` to crystallize from, a ``suspension``, a ``moist_solid`` to
-    dry or a ``dusty_gas``. What is not needed of the substances is left out; ``own`` are tables of those
-    that the line describes itself.
+    dry, a ``broken_solid`` to crush and screen, or a ``dusty_gas``. What is not needed of the substances is
+    left out; ``own`` are tables of those that the line describes itself.
     """
     with knowing_own(parsed(own, "case")):
         solute = (session().called(solute, "solute") or solute).partition(" in ")[0]
@@ -166,6 +166,8 @@ def _begun(title: str, enters: str, liquid: str, solute: str, solid: str, gas: s
         return new_line(title, [liquid], [solid], own=own)
     if enters == "moist_solid":
         return new_line(title, [liquid], [solid], [gas, liquid], own=own)
+    if enters == "broken_solid":
+        return new_line(title, [], [solid], [], "100 um", "409.6 mm", 24, own=own)  # √2
     if enters == "dusty_gas":
         return new_line(title, [], [solid], [gas], "0.1 um", "1 mm", own=own)
     raise unknown_name(_("Beginning"), enters, BEGINNINGS)

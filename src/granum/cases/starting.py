@@ -109,11 +109,13 @@ def starting_feed(mixture: Mapping[str, Any]) -> dict[str, Any]:
 
 def first_feed(mixture: Mapping[str, Any], enters: str) -> dict[str, Any]:
     """The first feed of a line: what it is made of in proportions ordinary for a solution, a suspension, a
-    moist solid or a dusty gas.
+    moist solid, a broken solid or a dusty gas.
     """
     made = starting_feed(mixture)
     if enters == "moist_solid":
         made |= {"solid_flow": "1000 kg/h", "liquid_flow": "200 kg/h"}
+    if enters == "broken_solid":
+        made |= {"solid_flow": "100 t/h", "sizes": BROKEN}
     if enters == "dusty_gas":
         gases = listed(mixture, "gases")
         made |= {
@@ -125,6 +127,7 @@ def first_feed(mixture: Mapping[str, Any], enters: str) -> dict[str, Any]:
     return made
 
 
+BROKEN = {"law": "rosin_rammler", "size_modulus": "60 mm", "distribution_exponent": 1.6}
 DUST = {"law": "rosin_rammler", "size_modulus": "20 um", "distribution_exponent": 1.2}
 
 

@@ -45,6 +45,7 @@ def boiled(feed: Stream, moisture: Any, T_product: Any, T_vapor: Any, pressure: 
 
 def dried_share(feed: Stream, moisture: Any) -> Any:
     """Of the liquor that is gone where so much of its solvent is left per solid of the feed."""
+    feed.mixture.require("liquids")
     left = jnp.minimum(moisture * feed.solid_flow, feed.liquid[0])
     return 1.0 - safe_divide(left, feed.liquid[0], 1.0)
 

@@ -160,6 +160,16 @@ class Mixture:
         """Shape of a stream's solid array: species × size class × further axes."""
         return (len(self.solids), len(self.size_edges) - 1, *(len(edges) - 1 for _name, edges in self.axes))
 
+    def require(self, phase: str) -> None:
+        """Refuses a mixture without a phase that a unit needs: ``solids``, ``liquids`` or ``gases``."""
+        if not getattr(self, phase):
+            raise InputError(
+                _("The mixture has no {phase}, which this unit needs: name some in the mixture.").format(
+                    phase=_(phase)
+                ),
+                name=phase,
+            )
+
     def index(self, phase: str, name: str) -> int:
         """Position of a species in its phase (``solids``, ``liquids``, ``gases``), by its name there or by
         another that the library knows it by; a clear error for an unknown name.

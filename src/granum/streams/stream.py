@@ -150,11 +150,13 @@ class Stream(eqx.Module):
     @property
     def solid_density(self) -> Any:
         """Mean density of the solid present, kg/m³; of the first species when there is none."""
+        self.mixture.require("solids")
         return _mean_density(self.solid_by_species, self.mixture.densities("solids", self.temperature))
 
     @property
     def liquid_density(self) -> Any:
         """Density of the liquid, kg/m³; of the first species when there is none."""
+        self.mixture.require("liquids")
         return _mean_density(self.liquid, self.mixture.densities("liquids", self.temperature))
 
     @property

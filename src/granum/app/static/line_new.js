@@ -7,6 +7,7 @@ const BEGINNINGS = [
   ['solution', 'A solution to crystallize', ['liquid', 'solute']],
   ['suspension', 'A suspension', ['liquid', 'solid']],
   ['moist_solid', 'A moist solid to dry', ['solid', 'liquid', 'gas']],
+  ['broken_solid', 'A solid to crush and screen', ['solid']],
   ['dusty_gas', 'A gas with dust', ['gas', 'solid']],
 ];
 
@@ -43,7 +44,7 @@ export function NewLine({ make, cancel }) {
       return false;
     }
   };
-  const main = { solution: 'solute', suspension: 'solid', moist_solid: 'solid', dusty_gas: 'solid' }[values.enters];
+  const main = { solution: 'solute', suspension: 'solid', moist_solid: 'solid', broken_solid: 'solid', dusty_gas: 'solid' }[values.enters];
   const chosen = rows?.[main].find((s) => s.value === values[main])?.label || values[main];
   const suggestion = chosen[0].toUpperCase() + chosen.slice(1);
   const labels = { liquid: t('liquid'), solute: t('dissolved in it'), solid: t('solid'), gas: t('gas') };

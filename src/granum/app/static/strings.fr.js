@@ -448,6 +448,7 @@ export const french = {
   'A solution to crystallize': 'Une solution à cristalliser',
   'A suspension': 'Une suspension',
   'A moist solid to dry': 'Un solide humide à sécher',
+  'A solid to crush and screen': 'Un solide à broyer et à cribler',
   'A gas with dust': 'Un gaz poussiéreux',
   'dissolved in it': 'dissous dedans',
   'New line': 'Nouvelle ligne',

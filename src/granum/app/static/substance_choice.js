@@ -32,8 +32,7 @@ const begins = (row, word) =>
 /** One of a list, searched by typing; what is not in the list is handed on as it was typed. */
 export function Choice({ id, label, rows, value, pick, quiet }) {
   const shown = rows.find((row) => row.value === value)?.label ?? value;
-  const [typed, setTyped] = useState(null);
-  useEffect(() => setTyped(null), [value]);
+  const [typed, setTyped] = useState(null); // belongs to whoever types until the field is left
   const settle = (text) => {
     const whole = rows.find((row) => plain(row.label) === plain(text) || plain(row.value) === plain(text));
     const near = rows.filter((row) => begins(row, plain(text)));
@@ -52,6 +51,6 @@ export function Choice({ id, label, rows, value, pick, quiet }) {
       !rows.some((row) => row !== whole && plain(row.label).startsWith(plain(e.target.value)))
     )
       pick(whole.value);
-  }} onChange=${(e) => settle(e.target.value)} /><datalist id=${id + '-list'}>${rows.map((row) => html`<option value=${row.label}></option>`)}</datalist>`;
+  }} onChange=${(e) => settle(e.target.value)} onBlur=${() => setTyped(null)} /><datalist id=${id + '-list'}>${rows.map((row) => html`<option value=${row.label}></option>`)}</datalist>`;
   return quiet ? entry : html`<label class="end" for=${id}><span>${label}</span>${entry}</label>`;
 }

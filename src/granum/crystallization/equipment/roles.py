@@ -50,6 +50,7 @@ def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
     """
     if not mixture.solids:
         raise CaseError(_("The mixture has no solid that could crystallize."))
+    mixture.require("liquids")
     s = mixture.index("solids", solid) if solid else 0
     w = mixture.index("liquids", solvent) if solvent else 0
     component = mixture.liquids[w].composition[0][0]

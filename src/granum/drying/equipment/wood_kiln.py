@@ -158,6 +158,7 @@ class WoodKiln(Unit):
     utilities: ClassVar[Utilities] = HEATED | HOT_GAS | FANNED
 
     def inside(self, feed: Stream, gas: Stream) -> Run:
+        feed.mixture.require("liquids")
         first = safe_divide(feed.liquid[0], feed.solid_flow)
         h = heat_transfer_coefficient_parallel.function(self.gas_velocity * GAS_DENSITY)
         found = _run(self, first, h, jnp.asarray(gas.pressure, dtype=float))

@@ -73,6 +73,7 @@ def wet_size(path: Path, X: Any) -> Any:
 
 def liquid_density(feed: Stream) -> Any:
     """Of the liquid that evaporates."""
+    feed.mixture.require("liquids")
     return feed.mixture.densities("liquids", AMBIENT)[0]
 
 
