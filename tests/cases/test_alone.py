@@ -7,14 +7,18 @@ from __future__ import annotations
 import json
 import tomllib
 
+import numpy as np
 import pytest
 from tests.sharing.commands import granum
 
 import granum as gr
 from granum.cases import read_text
 from granum.cases.alone import alone, assumed, case_text, tables
+from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError
 from granum.core.index import entries
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
 
 EQUIPMENT = [key for key, entry in entries().items() if entry.sort == "equipment"]
 DRUM = "filtration.rotary_vacuum_drum"
@@ -225,3 +229,31 @@ def test_another_gas_has_the_share_of_the_one_it_replaces() -> None:
 def test_gases_without_shares_are_asked_for() -> None:
     with pytest.raises(GranumError, match=r"gas\.nitrogen, gas\.acetone, gas\.water"):
         alone("drying.rotary_dryer", **{"mixture.gases": "nitrogen,acetone,water"})
+
+
+@pytest.mark.parametrize("key", ["comminution.cone_crusher", "cyclones.gas_cyclone", "settling.thickener"])
+@pytest.mark.parametrize(
+    ("median", "spread"), [("50 nm", 1.5), ("20 um", 6.0), ("3 mm", 2.0), ("0.4 m", 3.0)]
+)
+def test_the_size_classes_hold_what_is_said_of_the_feed(key: str, median: str, spread: float) -> None:
+    """By a log-normal law whose median and spread are those of the stream; the ratio of the classes stays."""
+    law = {
+        "feed.sizes.law": "log_normal",
+        "feed.sizes.median_diameter": median,
+        "feed.sizes.geometric_standard_deviation": spread,
+    }
+    line = read_text(case_text(key, law))
+    feed = line.sheet.feeds["feed"]
+    edges, shares = np.asarray(feed.mixture.edges), np.asarray(feed.size_fractions)
+    found = float(np.exp(np.sum(shares * np.log(np.sqrt(edges[:-1] * np.maximum(edges[1:], 1e-12))))))
+    expected = float(convert(median, Parameter("median_diameter", KINDS["Length"])))
+    assert found == pytest.approx(expected, rel=0.06)
+    usual = tables(key)["mixture"]["sizes"]
+    ends = [float(convert(usual[end], Parameter(end, KINDS["Length"]))) for end in ("smallest", "largest")]
+    assert edges[1] / edges[0] == pytest.approx((ends[1] / ends[0]) ** (1.0 / usual["classes"]), rel=1e-9)
+
+
+def test_size_classes_that_were_said_are_left() -> None:
+    words = {"feed.sizes.size_modulus": "300 mm", "mixture.sizes.largest": "204.8 mm"}
+    with pytest.raises(GranumError, match="coarser than"):
+        read_text(case_text("comminution.cone_crusher", words))

@@ -21,6 +21,7 @@ from granum.cases.flows import BY_PHASE, BY_TOTAL, MOISTURES, in_phases, in_tota
 from granum.cases.reading import read_text
 from granum.cases.schema import OWN, FeedTable
 from granum.cases.tables import as_toml, put
+from granum.cases.widening import widen
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.documents import table_in
@@ -93,6 +94,7 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
                 if f"{port}.{word}" not in (words or {}):
                     feed.pop(word, None)
     _drop_what_is_gone(mixture, feeds, words or {})
+    widen(mixture, feeds, words or {})
     _fill_up(feeds, words or {})
     _drop_laws_of({name for _phase, name in before - _present(mixture)}, own, words or {})
     for port, feed in feeds.items():

@@ -280,6 +280,15 @@ def _outside(where: str, edges: Any, below: float, above: float) -> str:
     ).format(where=where, sides="; ".join(told))
 
 
+def below(sizes: Any, edges: np.ndarray) -> np.ndarray | None:
+    """Mass fraction finer than each edge by the law of a feed; None where it has none."""
+    if not isinstance(sizes, Mapping) or sizes.get("law") is None:
+        return None
+    options = dict(sizes)
+    law = law_of("size_distribution", options.pop("law"), "", options)
+    return np.asarray(once(partial(_below, law), edges))
+
+
 def _below(law: Any, edges: Any) -> Any:
     return law(edges)
 
