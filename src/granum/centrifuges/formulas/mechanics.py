@@ -4,6 +4,8 @@ stress, critical speed.
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import jax.numpy as jnp
 
 from granum.core import formula, watch
@@ -16,12 +18,13 @@ from granum.core.kinds import (
     MassFlow,
     PositiveNumber,
     Power,
-    PressureDrop,
+    PressureDifference,
     RotationSpeed,
     Stress,
     Time,
     Volume,
     VolumeFlow,
+    Within,
 )
 from granum.numerics import find_root
 
@@ -156,7 +159,7 @@ def hoop_stress_bowl(
     bowl_radius: Length,
     wall_thickness: Length,
     rotation_speed: RotationSpeed,
-    liquid_pressure_bowl: PressureDrop,
+    liquid_pressure_bowl: Annotated[PressureDifference, Within(0.0, 1e8)],
     wall_density: Density = 7850.0,
 ) -> Stress:
     """Hoop stress in a thin bowl wall: its own weight in the field and the pressure of its contents.
