@@ -11,6 +11,7 @@ import pytest
 
 import granum as gr
 from granum.core.errors import GranumError
+from granum.materials.schema import read_materials
 
 LYE, CRYSTAL = "sodium hydroxide", "sodium hydroxide monohydrate"
 # what is fed with lye, what solid there is beside its crystal where it dries, the strongest lye
@@ -52,3 +53,18 @@ def test_a_vacuum_crystallizer_says_that_it_flashes_no_lye() -> None:
     }
     with pytest.raises(GranumError, match="heat of mixing"):
         gr.alone("crystallization.vacuum_crystallizer", **words).solve()
+
+
+def test_the_law_of_lye_is_of_lye_alone() -> None:
+    branch = {
+        "crystal": "salt",
+        "stable": [273.15, 373.15],
+        "range": [273.15, 373.15],
+        "basis": "kg anhydrous per kg solvent",
+        "form": "table",
+        "table": [[0, 10], [50, 20], [100, 30]],
+        "source": "own",
+    }
+    entry = {"molar_mass": 0.05, "formula": "KCl", "mixing": "olsson", "branches": [branch]}
+    with pytest.raises(GranumError, match="NaOH in water"):
+        read_materials({"solute": {"mine": entry}}, "own")

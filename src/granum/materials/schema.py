@@ -225,6 +225,13 @@ class SoluteEntry(_Named):
     )
 
     @model_validator(mode="after")
+    def _olsson_for_lye(self) -> SoluteEntry:
+        activity = self.water_activity is not None and self.water_activity.form == "olsson"
+        if (activity or self.mixing) and (self.formula, self.solvent) != ("NaOH", "water"):
+            raise ValueError("'olsson' is a law of NaOH in water: leave it out")
+        return self
+
+    @model_validator(mode="after")
     def _one_after_another(self) -> SoluteEntry:
         ends = [t for b in self.branches for t in b.stable]
         if any(a >= b for a, b in zip(ends[::2], ends[1::2], strict=True)) or ends[1:-1:2] != ends[2::2]:
