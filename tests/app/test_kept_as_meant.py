@@ -83,8 +83,8 @@ def test_marks_of_french_never_begin_a_line(page: Page) -> None:
     page.open(DRUM, "fr")
     page.one("[data-figure]")
     page.browser.execute_script(OPENED)
-    page.type(SALT, "3,8").send_keys(Keys.TAB)
-    page.says(".message", "la somme des parts")
+    page.type(SALT, "-3,8").send_keys(Keys.TAB)
+    page.settle()
     found = page.browser.execute_script(
         """
         const walk = document.createTreeWalker(document.querySelector('main'), NodeFilter.SHOW_TEXT);
@@ -98,7 +98,6 @@ def test_marks_of_french_never_begin_a_line(page: Page) -> None:
     assert any("\u00a0:" in text for text in found), "some of them have a colon"
     begun = [text for text in found if any(f"\u0020{mark}" in text for mark in ":;?!»%")]
     assert not [text for text in begun if text != " / %"], "a unit in a heading is no word"
-    assert "1,008" in page.text(".message"), "with the decimal comma"
 
 
 def test_code_keeps_its_spaces_in_french() -> None:

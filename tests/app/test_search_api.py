@@ -180,7 +180,7 @@ def test_there_are_lines_and_pages_to_find() -> None:
 def test_equipment_as_a_form_says_what_it_means_in_words(client: Any) -> None:
     asked = {"area": "12 m2", "feed.solid_flow": "400 kg/h"}
     found = client.post("/api/alone/filtration.rotary_vacuum_drum?lang=fr", json=asked).json()
-    assert found["values"]["area"] == "12 m2"
+    assert found["values"]["area"] == "12 m^2"  # as the menu of the field names it
     assert "chlorure de sodium, part" in [
         row["label"] for group in found["groups"] for row in group["parameters"]
     ]
