@@ -8,6 +8,7 @@ import pytest
 
 import granum as gr
 from granum.core.errors import CaseError
+from granum.core.flags import collect
 from granum.core.notices import describe
 from granum.evaporation.boiling import Liquor
 from granum.evaporation.equipment.evaporator import Evaporator, RecompressionEvaporator
@@ -308,3 +309,15 @@ def test_a_heat_of_dilution_that_is_left_out_is_told_where_it_matters():
         told[name] = one.operate(feed=feed(liquor, liquid_flow=3.0, temperature="60 degC", liquid=lye))
     assert any("heat of dilution" in reason for reason in reasons(told["magnesium chloride"]))
     assert not any("heat of dilution" in reason for reason in reasons(told["sodium chloride"]))
+
+
+def test_a_liquor_stronger_than_the_data_at_its_temperature_is_told():
+    """Olsson's data end at 42 % below 15 °C, and at 78 % from 93 °C on."""
+    for temperature, share, told in (
+        ("10 degC", 0.5, True),
+        ("10 degC", 0.3, False),
+        ("100 degC", 0.7, False),
+    ):
+        with collect() as records:
+            caustic_enthalpy_olsson(temperature, share)
+        assert any(np.any(np.asarray(record.mask)) for record in records) == told

@@ -24,7 +24,7 @@ from granum.materials.formulas.activity import (
     water_activity_osmotic,
     water_activity_starzak_peacock,
 )
-from granum.materials.formulas.caustic import STRONGEST, caustic_vapor_pressure_olsson
+from granum.materials.formulas.caustic import STRONGEST, caustic_vapor_pressure_olsson, vapor_pressure
 
 SLACK = 0.51  # K: the limits of the source are rounded
 
@@ -97,7 +97,7 @@ class CausticActivity(eqx.Module):
         beyond = w > STRONGEST
         flags.record(flags.EXTRAPOLATED, beyond, w, "solute_mass_fraction", key, 0.0, STRONGEST, source)
         t, inside = jnp.clip(T, self.coldest, self.hottest), jnp.minimum(w, STRONGEST)
-        over = [caustic_vapor_pressure_olsson.function(t, x) for x in (inside, 0.0 * inside)]
+        over = [vapor_pressure(t, x) for x in (inside, 0.0 * inside)]
         further = jnp.maximum(solute_per_solvent * (1.0 - STRONGEST) / STRONGEST, 1.0)
         return jnp.exp(jnp.log(over[0] / over[1]) * further)
 

@@ -11,7 +11,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core.constants import ZERO_CELSIUS
-from granum.materials.formulas.caustic import STRONGEST, caustic_enthalpy_olsson
+from granum.materials.formulas.caustic import STRONGEST, specific_enthalpy
 
 DILUTE = 1e-4  # mass fraction at which the solute is in much water
 THINNEST = 1e-7
@@ -34,5 +34,5 @@ class CausticMixing(eqx.Module):
 
     def _apparent(self, temperature: Any, w: Any) -> Any:
         T = jnp.clip(jnp.asarray(temperature, dtype=float), self.coldest, self.hottest)
-        h = caustic_enthalpy_olsson.function
+        h = specific_enthalpy
         return (h(T, w) - (1.0 - w) * h(T, 0.0 * w)) / w - self.heat_capacity * (T - ZERO_CELSIUS)

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.flags import extrapolated
 from granum.core.kinds import MassFraction, Pressure, SpecificEnergy, Temperature
 
 STRONGEST = 0.78
@@ -33,6 +34,23 @@ _B = (16.240074, -11.864008, -223.47305, -1650.3997, -5997.3118, -12318.744, -15
 _C = (-226.80157, 293.17155, 5081.8791, 36752.126, 131262.00, 259399.54, 301696.22, 208617.90, 81774.024, 15648.526, 906.29769)  # noqa: E501  # fmt: skip
 
 
+# °C from which on, and the mass fraction to which, the source has data
+_HEATS = (
+    (0.0, 4.0, 10.0, 15.0, 26.0, 37.0, 48.0, 60.0, 71.0, 82.0, 93.0),
+    (0.22, 0.32, 0.42, 0.46, 0.56, 0.6, 0.66, 0.7, 0.72, 0.76, STRONGEST),
+)
+_PRESSURES = ((0.0, 20.0, 60.0, 70.0), (0.418, 0.5, 0.647, 0.7))
+
+
+def _told(data: tuple[tuple[float, ...], ...], temperature: Any, w: Any) -> None:
+    """Flag a liquor that is stronger than those behind the equation at its temperature."""
+    starts, ends = (jnp.asarray(row) for row in data)
+    t = jnp.asarray(temperature - ZERO_CELSIUS)
+    most = ends[jnp.clip(jnp.searchsorted(starts, t, side="right") - 1, 0, len(starts) - 1)]
+    beyond = (w > most) & (most < ends[-1])  # more than the last is told of the range as a whole
+    extrapolated(beyond, w, "solute_mass_fraction", 0.0, most)
+
+
 def _polynomial(coefficients: tuple[float, ...], x: Any) -> Any:
     return jnp.polyval(jnp.asarray(coefficients[::-1]), x)
 
@@ -45,7 +63,7 @@ def _polynomial(coefficients: tuple[float, ...], x: Any) -> Any:
         r"t = T - 273.15\,\mathrm K"
     ),
     fitted={"temperature": (ZERO_CELSIUS, 477.15), "solute_mass_fraction": (0.0, STRONGEST)},
-    typical={"temperature": (300.0, 400.0), "solute_mass_fraction": (0.05, 0.5)},
+    typical={"temperature": (370.0, 440.0), "solute_mass_fraction": (0.05, 0.5)},
     output="specific_enthalpy",
     title="Enthalpy of caustic soda liquor (Olsson)",
 )
@@ -62,6 +80,12 @@ def caustic_enthalpy_olsson(temperature: Temperature, solute_mass_fraction: Mass
     >>> round(caustic_enthalpy_olsson("60 degC", "20 %") / 1e3, 0)
     213.0
     """
+    _told(_HEATS, temperature, solute_mass_fraction)
+    return specific_enthalpy(temperature, solute_mass_fraction)
+
+
+def specific_enthalpy(temperature: Any, solute_mass_fraction: Any) -> Any:
+    """The same without flags, J/kg."""
     t, x = temperature - ZERO_CELSIUS, 1.0 - solute_mass_fraction
     cold = _polynomial(_TOP, x) / _polynomial(_BOTTOM, x)
     warm = _polynomial(_FIRST, x) + t * (_polynomial(_SECOND, x) + t * _polynomial(_THIRD, x))
@@ -74,8 +98,8 @@ def caustic_enthalpy_olsson(temperature: Temperature, solute_mass_fraction: Mass
         r"\ln\frac{p_v}{1\,\mathrm{kPa}} = \frac{A + B\,t}{t - C},\quad A, B, C = "
         r"\sum_i a_i\left[\ln(1-x)\right]^i,\quad t = T - 273.15\,\mathrm K"
     ),
-    fitted={"temperature": (ZERO_CELSIUS, 473.15), "solute_mass_fraction": (0.0, STRONGEST)},
-    typical={"temperature": (300.0, 400.0), "solute_mass_fraction": (0.05, 0.5)},
+    fitted={"temperature": (ZERO_CELSIUS, 473.15), "solute_mass_fraction": (0.0, 0.7)},
+    typical={"temperature": (345.0, 420.0), "solute_mass_fraction": (0.05, 0.5)},
     output="vapor_pressure",
     title="Vapor pressure of caustic soda liquor (Olsson)",
 )
@@ -83,12 +107,19 @@ def caustic_vapor_pressure_olsson(temperature: Temperature, solute_mass_fraction
     """Pressure of water over a solution of sodium hydroxide: where it equals that of the evaporator, the
     liquor boils.
 
-    Below 70 °C the data end at 65 %, below 60 °C at 50 %, below 20 °C at 42 %.
+    Below 70 °C the data end at 65 %, below 60 °C at 50 %, below 20 °C at 42 %; those from
+    150 °C on, to 80 %, are flagged here beyond 70.
 
     Geankoplis' Dühring lines have a liquor of 50 % boil at 89.5 °C under 11.7 kPa.
 
     >>> round(caustic_vapor_pressure_olsson("89.5 degC", "50 %") / 1e3)
     11
     """
+    _told(_PRESSURES, temperature, solute_mass_fraction)
+    return vapor_pressure(temperature, solute_mass_fraction)
+
+
+def vapor_pressure(temperature: Any, solute_mass_fraction: Any) -> Any:
+    """The same without flags, Pa."""
     t, y = temperature - ZERO_CELSIUS, jnp.log(1.0 - solute_mass_fraction)
     return 1e3 * jnp.exp((_polynomial(_A, y) + _polynomial(_B, y) * t) / (t - _polynomial(_C, y)))
