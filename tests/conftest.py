@@ -19,6 +19,8 @@ os.environ["XLA_FLAGS"] = " ".join(
         os.environ.get("XLA_FLAGS", ""),
         "--xla_cpu_use_fusion_emitters=false",
         "--xla_backend_optimization_level=0",
+        # as many processes as cores are at it
+        "--xla_cpu_parallel_codegen_split_count=1",
     ]
 ).strip()
 

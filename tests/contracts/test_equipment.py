@@ -196,7 +196,9 @@ def test_conserves_keeps_still_has_derivatives_and_takes_what_it_may(key: str) -
         return found, slopes.numbers
 
     options = {"compiler_options": QUICK} if jax.default_backend() == "cpu" else {}
-    found, slopes = jax.tree.map(np.asarray, jax.jit(jax.vmap(tried), **options)(settings, there, ways))
+    # one after the other: without fusion a batch of marches copies all its packets at every step
+    each = jax.jit(lambda *every: jax.lax.map(lambda one: tried(*one), every), **options)
+    found, slopes = jax.tree.map(np.asarray, each(settings, there, ways))
     assert not found.lost[:3].any()
     assert found.mass[:3].max() <= CLOSURE
     assert found.energy[:3].max() <= CLOSURE
