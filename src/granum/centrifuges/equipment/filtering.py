@@ -300,11 +300,11 @@ class Peeler(SetCake):
     """Batch basket through its cycle: kept full while the cake grows, washed under a ring of liquor, spun
     off, drained, plowed.
 
-    ``radius_inner`` is the free surface while loading and washing, at the rim of the basket. Several baskets share the feed in turn.
-    The plow leaves a heel under the cake, as permeable as the cake when fresh, whose resistance grows with
-    each cycle (``heel_blinding``, as a share); all is told for the last of the ``heel_cycles`` between two
-    cleanings. A rotating siphon, whose mouth stands at ``siphon_radius`` beyond the basket wall, adds its
-    suction.
+    ``radius_inner`` is the free surface while loading and washing, at the rim of the basket. Several baskets
+    share the feed in turn. The plow leaves a heel under the cake, as permeable as the cake when fresh, whose
+    resistance grows with each cycle (``heel_blinding``, as a share); all is told for the last of the
+    ``heel_cycles`` between two cleanings. A rotating siphon, whose mouth stands at ``siphon_radius`` beyond
+    the basket wall, adds its suction.
     """
 
     basket_height: Length
