@@ -151,9 +151,7 @@ class Flocculator(Unit):
             if self.aggregation_constant is None
             else jnp.asarray(self.aggregation_constant, dtype=float)
         )
-        number = flocculation_ratio_tanks(
-            gradient, stay, constant, self.breakage_constant, self.tank_number
-        )
+        number = flocculation_ratio_tanks(gradient, stay, constant, self.breakage_constant, self.tank_number)
         number = jnp.clip(number, 1.0, LARGEST)
         return FlocculatorFigures(
             stay,
