@@ -182,6 +182,14 @@ def test_what_a_unit_answers_is_no_input_of_it() -> None:
         tables("comminution.bond_mill", {"product_size": "3 mm"})
 
 
+def test_gas_said_of_what_is_dried_is_sent_to_its_own_inlet() -> None:
+    """It left with the exhaust and dried nothing, in silence."""
+    for key in ("drying.rotary_dryer", "drying.spray_dryer", "drying.tray_dryer"):
+        with pytest.raises(InputError, match=r"say 'gas\.gas_flow'"):
+            tables(key, {"feed.gas_flow": "2 t/h"})
+    assert tables("dust.bag_filter", {"feed.gas_flow": "2 t/h"})["feeds"]["feed"]["gas_flow"] == "2 t/h"
+
+
 def test_a_formula_is_no_equipment() -> None:
     with pytest.raises(GranumError, match="is a formula, not equipment"):
         alone("particles.reynolds_number")

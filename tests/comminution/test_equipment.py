@@ -208,3 +208,31 @@ def test_the_example_runs() -> None:
 def test_a_power_and_a_work_index_are_not_both_taken() -> None:
     with pytest.raises(InputError, match="one of the two"):
         ConeCrusher(5e-4, 2e-3, AustinBreakage(0.5, 0.8, 4.0), shaft_power=1e4, work_index=4.2e4)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 2.0, 3.0])
+@pytest.mark.parametrize("classes", [12, 20])
+def test_eighty_percent_sizes_in_wide_classes(exponent: float, classes: int) -> None:
+    """Of Rosin and Rammler's law in closed form, where an even spread inside classes is up to a tenth too
+    high; the product is Bond's, and what the classes add to it is told.
+    """
+    import granum as gr
+
+    run = gr.alone(
+        "comminution.bond_mill",
+        work_index="12.74 kWh/t",
+        shaft_power="169.6 kW",
+        mixture={"sizes": {"smallest": "1 mm", "largest": "400 mm", "classes": classes}},
+        feed={
+            "solid_flow": "100 t/h",
+            "sizes": {"law": "rosin_rammler", "size_modulus": "80 mm", "distribution_exponent": exponent},
+        },
+    ).solve()
+    feed = 80e-3 * np.log(5.0) ** (1.0 / exponent)
+    found = run.figure("bond_mill.feed_size")
+    assert found == pytest.approx(feed, rel=0.025)
+    product = 1e-4 / (1e-2 / np.sqrt(found) + 1.696 / 12.74) ** 2  # Bond, sizes over 100 µm
+    assert run.figure("bond_mill.product_size") == pytest.approx(product, rel=1e-6)
+    check = next(c for c in run.units["bond_mill"].checks if c.name.startswith("80 %"))
+    assert bool(check.ok) == (0.95 < float(check.value) < 1.05)
+    assert 1.0 < float(check.value) < 1.1

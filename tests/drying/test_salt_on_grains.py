@@ -40,3 +40,24 @@ def test_it_closes_and_keeps_the_salt(key: str, seed: int) -> None:
     )
     place = feed.mixture.components.index(SALT)
     assert float(product.components[place]) == pytest.approx(float(feed.components[place]), rel=1e-9)
+
+
+@pytest.mark.parametrize(("air", "humidity"), [("20 degC", "40 %"), ("5 degC", "95 %"), ("30 degC", "85 %")])
+def test_grain_that_takes_up_water_dilutes_its_liquor(air: str, humidity: str) -> None:
+    """More water than came in with it held more salt than there was, and the bin was refused."""
+    salt = "sodium chloride"
+    run = gr.alone(
+        "drying.grain_bin",
+        mixture={"liquids": f"water,{salt}", "solids": f"maize,{salt}"},
+        feed={"liquid": {"water": 0.75, salt: 0.25}, "solid": {"maize": 1.0, salt: 0.0}},
+        gas={"temperature": air, "relative_humidity": humidity},
+    ).solve()
+    feed, product = run.streams["feed"], run.streams["grain_bin.product"]
+    assert run.audit["mass_closure"] < 1e-9
+    assert run.audit["energy_closure"] < 1e-9
+    crystals = float(product.solid[1].sum())
+    assert float(product.liquid[1]) + crystals == pytest.approx(float(feed.liquid[1]), rel=1e-9)
+    assert crystals >= 0.0
+    if product.liquid[0] > feed.liquid[0]:  # none is left, and the liquor is thinner than it came
+        assert crystals == pytest.approx(0.0, abs=1e-12)
+        assert product.liquid[1] / product.liquid[0] <= feed.liquid[1] / feed.liquid[0] + 1e-12

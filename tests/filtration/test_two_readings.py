@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from granum.core.errors import GranumError
+import granum as gr
+from granum.core.errors import GranumError, InputError
 from granum.filtration import (
     ConstantRateTest,
     LeafTest,
@@ -109,3 +110,13 @@ def test_lab_tests_say_where_two_readings_are_read():
         ConstantRateTest(
             time=np.array([120, 300]), pressure_drop=[3230, 6530], filtrate_flow=0.078, area=29.75, **SLURRY
         )
+
+
+def test_resistances_at_two_pressures_give_the_compressibility() -> None:
+    """Back from the power law that filters use; a lab test of two points leads there."""
+    alpha = [float(gr.filtration.cake_resistance_power_law(p, 4.37e9, 0.3)) for p in (4e4, 3e5)]
+    found = gr.filtration.compressibility_two_resistances(alpha[0], 4e4, alpha[1], 3e5, 1.0)
+    assert float(found.compressibility) == pytest.approx(0.3, rel=1e-9)
+    assert float(found.cake_resistance_reference) == pytest.approx(4.37e9, rel=1e-9)
+    with pytest.raises(InputError, match="compressibility_two_resistances"):
+        gr.filtration.Compressibility(pressure_drop=[4e4, 3e5], cake_resistance=alpha)

@@ -93,6 +93,7 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
             for word in ("liquid_flow", "solids_mass_fraction"):
                 if f"{port}.{word}" not in (words or {}):
                     feed.pop(word, None)
+    _one_gas(key, written["unit"][name]["in"], written["feeds"], words or {})
     _drop_what_is_gone(mixture, feeds, words or {})
     widen(mixture, feeds, words or {})
     _fill_up(feeds, words or {})
@@ -179,6 +180,26 @@ def _called(thing: Any, word: str) -> str | None:
 
 def _for(thing: Any) -> str:
     return _("for {owner}").format(owner=thing.card.key)
+
+
+def _one_gas(
+    key: str, inlets: Mapping[str, str], ordinary_feeds: Mapping[str, Any], said: Mapping[str, Any]
+) -> None:
+    """Refuses gas said of what a machine works on where its gas has an inlet of its own: it would leave with
+    the exhaust and do nothing.
+    """
+    if "gas" not in inlets:
+        return
+    for port, feed in inlets.items():
+        word = f"{port}.gas_flow"
+        if port not in ("gas", "mixture") and "gas_flow" not in ordinary_feeds[feed] and said.get(word):
+            raise InputError(
+                _(
+                    "The gas of {owner} enters at 'gas': say 'gas.gas_flow'. With '{word}' it would come "
+                    "with what is treated and leave at once, without effect."
+                ).format(owner=key, word=word),
+                name=word,
+            )
 
 
 def _drop_what_is_gone(

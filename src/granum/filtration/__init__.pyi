@@ -130,6 +130,9 @@ from granum.filtration.formulas.constant_rate import (
     pressure_drop_constant_rate as pressure_drop_constant_rate,
     pressure_drop_constant_rate_compressible as pressure_drop_constant_rate_compressible,
 )
+from granum.filtration.formulas.cracking import (
+    cake_thickness_crack_free_singh as cake_thickness_crack_free_singh,
+)
 from granum.filtration.formulas.cycle import (
     Cycle as Cycle,
     filtrate_flow_drum as filtrate_flow_drum,
@@ -239,7 +242,9 @@ from granum.filtration.formulas.suction import (
     suction_constant_calibration as suction_constant_calibration,
 )
 from granum.filtration.formulas.two_readings import (
+    Compressed as Compressed,
     Resistances as Resistances,
+    compressibility_two_resistances as compressibility_two_resistances,
     resistances_two_pressures as resistances_two_pressures,
     resistances_two_volumes as resistances_two_volumes,
 )

@@ -300,11 +300,11 @@ class Peeler(SetCake):
     """Batch basket through its cycle: kept full while the cake grows, washed under a ring of liquor, spun
     off, drained, plowed.
 
-    ``radius_inner`` is the free surface while loading and washing. Several baskets share the feed in turn.
-    The plow leaves a heel under the cake, as permeable as the cake when fresh, whose resistance grows with
-    each cycle (``heel_blinding``, as a share); all is told for the last of the ``heel_cycles`` between two
-    cleanings. A rotating siphon, whose mouth stands at ``siphon_radius`` beyond the basket wall, adds its
-    suction.
+    ``radius_inner`` is the free surface while loading and washing, at the rim of the basket. Several baskets
+    share the feed in turn. The plow leaves a heel under the cake, as permeable as the cake when fresh, whose
+    resistance grows with each cycle (``heel_blinding``, as a share); all is told for the last of the
+    ``heel_cycles`` between two cleanings. A rotating siphon, whose mouth stands at ``siphon_radius`` beyond
+    the basket wall, adds its suction.
     """
 
     basket_height: Length
@@ -321,6 +321,9 @@ class Peeler(SetCake):
     limits: ClassVar[Limits] = {
         "use": Limit("share of the capacity in use", 0.0, 1.0, "dimensionless", "grace1953"),
         **machine_limits(diameter=5e-6, solids=(0.03, 0.5), effect=(300.0, 2000.0), layer=(0.02, 0.2)),
+        "full": Limit("cake height over that of the rim", 0.0, 0.8, "dimensionless", "andritzpeeler"),
+        # about a twentieth in the source, of all that stays in the machine: twice that is our own number
+        "heel": Limit("volume of the heel over that of the basket", 0.0, 0.1, "dimensionless", "grimpeeler"),
         "siphon": Limit("suction of the siphon", 0.0, 0.9, "bar", "perry2008, § 18"),
     }
 
@@ -387,7 +390,12 @@ class Peeler(SetCake):
         self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None
     ) -> dict[str, Any]:
         suction = self.rotation_speed**2 * (self.mouth**2 - self.radius_outer**2) * feed.liquid_density / 2.0
-        return super().measured(inside, outlets, figures, feed, wash) | {"siphon": suction / 1e5}
+        wall, rim = self.radius_outer**2, self.radius_inner**2
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "full": (self.radius_outer - self.cake_radius) / (self.radius_outer - self.radius_inner),
+            "heel": (wall - self.cake_outer**2) / (wall - rim),
+            "siphon": suction / 1e5,
+        }
 
 
 @equipment("pusher", source="storrow1957; perry2008, § 18", title="Pusher centrifuge")

@@ -36,8 +36,7 @@ from granum.streams.utilities import DRIVE, driven
 
 _TINY = 1e-12
 OWN_LIMIT = "bond1961, the 80 % size only: that it has to lie within the grid of sizes is our own choice"
-
-
+OWN_CLASSES = "bond1961, the law only: what wide size classes may add is our own choice"
 _IDLE = (
     "What enters cannot take up the shaft power: nothing comes in, or it would be hotter than anything its "
     "properties are known for."
@@ -207,6 +206,7 @@ class BondMill(Unit):
     allows.
 
     The product keeps the shape of the feed's distribution; a self-similar product is what Bond's law assumes.
+    Its 80 % size is told as the law gives it; a check says where size classes are too wide to hold it.
     """
 
     shaft_power: Annotated[Power, Within(0.0)]
@@ -214,7 +214,14 @@ class BondMill(Unit):
     efficiency_factor: PositiveNumber = 1.0
 
     limits: ClassVar[Limits] = {
-        "finest": Limit("product in the finest size class", 0.0, 20.0, "percent", OWN_LIMIT)
+        "finest": Limit("product in the finest size class", 0.0, 20.0, "percent", OWN_LIMIT),
+        "classes": Limit(
+            "80 % size of the product as its size classes hold it over that of the law",
+            0.95,
+            1.05,
+            "dimensionless",
+            OWN_CLASSES,
+        ),
     }
 
     utilities: ClassVar[Utilities] = DRIVE
@@ -233,7 +240,7 @@ class BondMill(Unit):
         return _warmed(ground, self.shaft_power, type(self).card)
 
     def figures(self, inside: None, outlets: Ground, feed: Stream) -> CrusherFigures:
-        coarse, fine = size_passing(feed), size_passing(outlets.product)
+        coarse, fine = size_passing(feed), self._product_size(feed)
         return CrusherFigures(
             coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow)
         )
@@ -254,7 +261,12 @@ class BondMill(Unit):
     def measured(
         self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {"finest": 100.0 * outlets.product.size_fractions[0]}
+        return {
+            "finest": 100.0 * outlets.product.size_fractions[0],
+            "classes": jnp.where(
+                feed.solid_flow > 0.0, size_passing(outlets.product) / figures.product_size, 1.0
+            ),
+        }
 
     def drawn(self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream) -> dict[str, Any]:
         return {"electric_power_drive": driven(outlets.shaft_power)}

@@ -39,6 +39,7 @@ from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import FANNED, fanned
 
 LEAST = 1e-9
+SIZES = (1e-8, 1e-3)  # m, between which half of a size is collected
 MILD_STEEL = 1.2e9  # Pa, flow stress near the Vickers hardness
 YEAR, ALLOWANCE = 8000.0 * 3600.0, 3.0  # s of operation, and mm of steel worn off in them
 HARDER = 1.2  # times as hard as the wall is a grain that wears it
@@ -66,8 +67,8 @@ class CycloneFigures(NamedTuple):
 
 
 class Swirl(NamedTuple):
-    """What is known of the flow in each cyclone: inlet velocity, cut size, dust per gas fed and carried by
-    the swirl, saltation velocity, wear, m/s.
+    """What is known of the flow in each cyclone: inlet velocity, cut size of the law, dust per gas fed and
+    carried by the swirl, saltation velocity, wear, m/s.
 
     ``grade``: share of each species and size class collected by the inner vortex.
     """
@@ -120,6 +121,12 @@ class GasCyclone(Unit):
         """Lengths of each cyclone."""
         return self.cyclone_geometry(self.diameter)
 
+    def _half_collected(self, flow: Any, dust: Any, density: Any, viscosity: Any, shape: Dimensions) -> Any:
+        """Size of which the chosen law collects one half, between two of a fine series of sizes."""
+        sizes = jnp.geomspace(*SIZES, 501)
+        grade = self.cyclone_efficiency(sizes, flow, dust, density, viscosity, *shape)
+        return jnp.exp(jnp.interp(0.5, grade, jnp.log(sizes)))
+
     def inside(self, feed: Stream) -> Swirl:
         m, shape, viscosity, dust = feed.mixture, self.dimensions, feed.gas_viscosity, feed.solid_density
         volume = feed.gas_volume_flow
@@ -148,7 +155,9 @@ class GasCyclone(Unit):
         wear = jnp.sum(jnp.where(wears[:, None], worn, 0.0)) if not all(map(math.isnan, mohs)) else None
         return Swirl(
             velocity,
-            cut,
+            cut
+            if self.cyclone_efficiency is cyclone_efficiency_muschelknautz
+            else self._half_collected(flow, dust, density, viscosity, shape),
             loading,
             limit_loading_muschelknautz(jnp.maximum(loading, LEAST), cut, median),
             self.inlet_heads(*shape) * 0.5 * density * velocity**2,

@@ -2,7 +2,8 @@
 solid as the water leaves; a hydrate keeps its water of crystallization.
 
 The liquor keeps its composition, that of a saturated one, so that crystal is left in proportion to the water
-evaporated. Enthalpies are those of the streams: the heat of crystallization goes with the water.
+evaporated; only what takes up more water than it came with dilutes it. Enthalpies are those of the streams:
+the heat of crystallization goes with the water.
 """
 
 from __future__ import annotations
@@ -107,10 +108,14 @@ def counted(feed: Stream) -> Stream:
 
 
 def moistened(dry: Stream, water: Any, dissolved: Any) -> Stream:
-    """Dry matter with water on it that can leave, in which so much is dissolved per kilogram."""
-    m, solid = dry.mixture, dry.solid
+    """Dry matter with water on it that can leave, in which so much is dissolved per kilogram: no more than
+    there is, where it has taken up water and its liquor is diluted.
+    """
+    m, solid, kept = dry.mixture, dry.solid, []
     for place, share in zip(deposits(m), held(m, dissolved) if len(m.liquids) > 1 else (), strict=True):
-        there = jnp.sum(solid[place.row])
-        solid = solid.at[place.row].multiply(1.0 - safe_divide(share * water, there))
+        asked = safe_divide(share * water, jnp.sum(solid[place.row]))  # of the crystals there are
+        solid = solid.at[place.row].multiply(1.0 - jnp.minimum(asked, 1.0))
+        kept.append(1.0 / jnp.maximum(asked, 1.0))
+    dissolved = dissolved * jnp.stack(kept) if kept else dissolved
     whole = jnp.concatenate([jnp.reshape(1.0 + _bound(m, dissolved), (1,)), dissolved])
     return dry.replace(solid=solid, liquid=water * whole)

@@ -220,6 +220,7 @@ class SqueezingFilter(BatchFilter):
     time; without, it is taken as reached.
     """
 
+    closed: ClassVar[bool] = True
     _: KW_ONLY
     squeezing_time: Time = 600.0
     consolidation_coefficient: Diffusivity | None = None
@@ -296,7 +297,6 @@ class SqueezingFilter(BatchFilter):
         return super().measured(inside, outlets, figures, feed, wash) | {
             "squeezed": self.void_fraction_packed / self.void_fraction,
             "reached": self.consolidation_ratio,
-            "cracks": jnp.zeros(()),  # the squeeze has closed the cake before gas enters
         }
 
     def drawn(

@@ -30,6 +30,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
+from granum.filtration.formulas.cracking import cake_thickness_crack_free_singh
 from granum.filtration.formulas.deliquoring import (
     capillary_number_cake,
     gas_velocity_deliquoring,
@@ -116,8 +117,9 @@ class CakeFilter(CakeMaker):
     The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power
     ``compressibility`` of the pressure drop. Gas drains it only above its threshold pressure, and never below
     what Brooks and Corey's capillarity holds. What is compressible shrinks as it is drained, and may crack,
-    unless it was squeezed before: a check says so beyond a compressibility of 0.5, our own number. With a
-    ``transportable_moisture_limit`` the moisture of the cake is checked against it.
+    unless it was squeezed before: a check says so beyond a compressibility of 0.5, our own number. With the
+    ``shear_modulus`` of its grains a cake that is drained is held against the thickest that does not crack.
+    With a ``transportable_moisture_limit`` the moisture of the cake is checked against it.
     """
 
     area: Area
@@ -128,6 +130,7 @@ class CakeFilter(CakeMaker):
     compressibility: Ratio = 0.0
     reference_pressure: PressureDrop = 1e5
     transportable_moisture_limit: MoistureWetBasis | None = None
+    shear_modulus: PressureDrop | None = None
 
     limits: ClassVar[Limits] = {
         "capacity": Limit("share of the filtration capacity in use", 0.0, 1.0, "dimensionless", "ruth1935"),
@@ -156,10 +159,20 @@ class CakeFilter(CakeMaker):
             "strubel, abstract only: the number is our own",
             quiet=True,
         ),
+        "thick": Limit(
+            "thickness of a cake drained but not squeezed over the thickest that does not crack",
+            0.0,
+            1.0,
+            "dimensionless",
+            "singh2007",
+        ),
         "flowing": Limit(
             "cake moisture, wet basis", 0.0, "transportable_moisture_limit", "kg/kg", "imsbc2008, app. 2"
         ),
     }
+
+    closed: ClassVar[bool] = False
+    """Whether a squeeze has closed the cake before gas enters it."""
 
     @abc.abstractmethod
     def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
@@ -361,7 +374,14 @@ class CakeFilter(CakeMaker):
         }
         enters = self.over_threshold(feed)
         found["entered"] = jnp.where(inside.plan.deliquoring_time > 0.0, enters, jnp.maximum(enters, 1.0))
-        found["cracks"] = jnp.where(inside.plan.deliquoring_time > 0.0, self.compressibility, 0.0)
+        drained = (inside.plan.deliquoring_time > 0.0) & (not self.closed)
+        found["cracks"] = jnp.where(drained, self.compressibility, 0.0)
+        if self.shear_modulus is not None:
+            suction = self.pressure_drop / jnp.maximum(enters, 1.0)
+            whole = cake_thickness_crack_free_singh.function(
+                suction, self.surface_tension, self.shear_modulus, self.void_fraction
+            )
+            found["thick"] = jnp.where(drained, inside.plan.cake_thickness / whole, 0.0)
         if self.transportable_moisture_limit is not None:
             moisture = outlets.cake.moisture_dry_basis
             found["flowing"] = moisture / (1.0 + moisture)

@@ -74,6 +74,7 @@ class Compressibility(LabTest):
         "void_fraction_reference": VoidFraction,
         "compaction_exponent": Number,
     }
+    for_two_points: ClassVar = "filtration.compressibility_two_resistances"
     holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"pressure_drop": PressureDrop, "cake_resistance": CakeResistance}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -30,6 +31,7 @@ from granum.settling.formulas.flocculation import (
     flocculation_ratio_tanks,
     power_stirring,
     settling_growth_fractal,
+    velocity_gradient_stirred,
 )
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
@@ -81,11 +83,12 @@ class Flocculator(Unit):
     The stream goes on with the size of the compact grain that settles as fast as the floc: all classes grow
     by one factor, each by the same number of grains. The constant of aggregation follows from the volume of
     the grains and the share of collisions that last, unless a jar test gives it. With the best dose and the
-    sharpness that a jar test finds, a dose beside the best one leaves fewer collisions that last.
+    sharpness that a jar test finds, a dose beside the best one leaves fewer collisions that last. The
+    stirring is given by its velocity gradient, or by the power at the paddles that all tanks share.
     """
 
     volume: Annotated[Volume, Within(1e-6)]
-    velocity_gradient: Frequency
+    velocity_gradient: Frequency | None = None
     tank_number: PositiveNumber = 3.0
     _: KW_ONLY
     capture_efficiency: Fraction = 0.3
@@ -95,6 +98,12 @@ class Flocculator(Unit):
     coagulant_dose: Concentration = 0.0
     dose_optimum: Dose | None = None
     charge_sharpness: PositiveNumber | None = None
+    shaft_power: Annotated[Power, Within(1e-3)] | None = None
+
+    instead: ClassVar[Mapping[str, str]] = {
+        "shaft_power": "velocity_gradient",
+        "velocity_gradient": "shaft_power",
+    }
 
     limits: ClassVar[Limits] = {
         "gradient": Limit("velocity gradient", 10.0, 100.0, "1/s", "camp1955"),
@@ -108,6 +117,11 @@ class Flocculator(Unit):
     }
 
     def __check_init__(self) -> None:
+        if (self.velocity_gradient is None) == (self.shaft_power is None):
+            raise InputError(
+                _("The stirring is given by 'velocity_gradient' or by 'shaft_power': give one of the two."),
+                name="velocity_gradient",
+            )
         if (self.dose_optimum is None) != (self.charge_sharpness is None):
             raise InputError(
                 _(
@@ -117,6 +131,12 @@ class Flocculator(Unit):
                 name="dose_optimum",
             )
 
+    def gradient(self, feed: Stream) -> Any:
+        """The mean velocity gradient, also where the power that is stirred in is given."""
+        if self.velocity_gradient is not None:
+            return self.velocity_gradient
+        return velocity_gradient_stirred.function(self.shaft_power, self.volume, feed.liquid_viscosity)
+
     def _lasting(self) -> Any:
         """Share of the collisions that last at the dose given, of those at the best dose."""
         if self.dose_optimum is None or self.charge_sharpness is None:
@@ -124,24 +144,22 @@ class Flocculator(Unit):
         return capture_efficiency_dose.function(self.coagulant_dose, self.dose_optimum, self.charge_sharpness)
 
     def inside(self, feed: Stream) -> FlocculatorFigures:
-        flow = jnp.maximum(feed.slurry_volume_flow, FASTEST)
+        flow, gradient = jnp.maximum(feed.slurry_volume_flow, FASTEST), self.gradient(feed)
         stay = self.volume / flow
         constant = self._lasting() * (
             aggregation_constant_shear(feed.solids_volume_fraction, self.capture_efficiency)
             if self.aggregation_constant is None
             else jnp.asarray(self.aggregation_constant, dtype=float)
         )
-        number = flocculation_ratio_tanks(
-            self.velocity_gradient, stay, constant, self.breakage_constant, self.tank_number
-        )
+        number = flocculation_ratio_tanks(gradient, stay, constant, self.breakage_constant, self.tank_number)
         number = jnp.clip(number, 1.0, LARGEST)
         return FlocculatorFigures(
             stay,
-            self.velocity_gradient * stay,
+            gradient * stay,
             constant,
             number,
             settling_growth_fractal(number, self.fractal_dimension),
-            power_stirring(self.velocity_gradient, self.volume, feed.liquid_viscosity),
+            power_stirring(gradient, self.volume, feed.liquid_viscosity),
             self.coagulant_dose * feed.slurry_volume_flow,
         )
 
@@ -156,7 +174,7 @@ class Flocculator(Unit):
     ) -> dict[str, Any]:
         gathered = outlets.product.size_fractions[-1] - feed.size_fractions[-1]
         return {
-            "gradient": self.velocity_gradient,
+            "gradient": self.gradient(feed),
             "camp": figures.camp_number,
             "held": jnp.maximum(gathered, 0.0),
         }
