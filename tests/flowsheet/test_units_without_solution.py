@@ -10,10 +10,11 @@ import jax.numpy as jnp
 import pytest
 
 import granum as gr
+from granum.cases.reading import read_text
 from granum.core import registry
 from granum.core.errors import ApplicabilityError, ConvergenceError
 from granum.crystallization.equipment import msmpr
-from granum.flowsheet import Flowsheet
+from granum.flowsheet import Flowsheet, ladder
 from granum.flowsheet.run import Line
 from granum.materials.solutes import SoluteSystem
 from granum.streams.equipment import agglomerator
@@ -269,4 +270,64 @@ def test_a_screen_finer_than_its_capacity_law() -> None:
     screen = registry.find("comminution.vibrating_screen")(aperture=3e-4, screen_area=2.0)
     assert "Karra's capacity falls to zero there" in refused(
         {"screen": screen}, feed, {"feed": ("", "screen")}
+    )
+
+
+BEFORE = """title = "An evaporator before a loop"
+[mixture]
+liquids = ["water", "sodium chloride"]
+solids = ["sodium chloride"]
+gases = ["water"]
+sizes = { smallest = "100 um", largest = "1 mm", classes = 4 }
+[feeds.brine]
+to = "evaporator.feed"
+liquid_flow = "10 t/h"
+temperature = "60 degC"
+liquid = { water = "90 %", "sodium chloride" = "10 %" }
+[units.evaporator]
+model = "evaporation.evaporator"
+area = "500 m2"
+pressure = "0.3 bar"
+pressure_steam = "3 bar"
+heat_transfer_coefficient = "2000 W/(m2*K)"
+[units.mix]
+model = "streams.mixer"
+[units.crystallizer]
+model = "crystallization.msmpr"
+temperature = "75 degC"
+volume = "10 m3"
+evaporation = "500 kg/h"
+solubility = { law = "library_solubility", solute = "sodium chloride" }
+growth = { law = "power_law_growth", growth_coefficient = 1e-6, growth_order = 1.0 }
+nucleation = { law = "secondary_nucleation", nucleation_coefficient = 1e6, nucleation_order = 1.4 }
+[units.purge]
+model = "streams.splitter"
+side_fraction = "20 %"
+[streams]
+strong = ["evaporator.product", "mix.strong"]
+mixed = ["mix.product", "crystallizer.feed"]
+magma = ["crystallizer.product", "purge.feed"]
+back = ["purge.product", "mix.back"]
+"""
+
+
+def test_what_stands_before_a_loop_needs_no_other_solver(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No loop brings the evaporator into reach: it is told without exact derivatives, which take minutes."""
+
+    def exactly(*_given: object) -> None:
+        raise AssertionError("the exact solver was called")
+
+    line = read_text(BEFORE)
+    assert ladder.before_loops(line.sheet) == {"evaporator"}
+    monkeypatch.setattr(ladder, "_exactly", exactly)
+    with pytest.raises(ConvergenceError, match="evaporator.*boils off wholly"):
+        line.solve()
+
+
+def test_what_boils_off_in_a_crystallizer_is_water_removed() -> None:
+    line = read_text(BEFORE.replace("500 m2", "25 m2")).solve()
+    boiled, made = (line.sheets[name].figures for name in ("evaporator", "crystallizer"))
+    assert float(made.evaporation) == pytest.approx(500.0 / 3600.0)
+    assert line.utilities.evaporation_rate == pytest.approx(
+        float(boiled.evaporation_rate + made.evaporation), rel=1e-12
     )

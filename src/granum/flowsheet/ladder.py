@@ -246,10 +246,22 @@ def _may_help(sheet: Flowsheet, targets: tuple[Target, ...], wrong: list[Fault])
     looped = any(block.tears for block in sheet.blocks)
     if not looped or wrong[0].kind not in ("loop", "no value", "target"):
         return False
+    if not targets and wrong[0].kind == "no value" and wrong[0].unit in before_loops(sheet):
+        return False
     if len(targets) != 1:
         return True
     low, high = _reach(sheet, targets[0])
     return not np.isfinite(low + high) or min(low, high) <= targets[0].equals <= max(low, high)
+
+
+def before_loops(sheet: Flowsheet) -> set[str]:
+    """Units that nothing of a loop enters, nor anything that has passed one."""
+    before: set[str] = set()
+    for block in sheet.blocks:
+        fed = {k.source_unit for k in sheet.links if k.target_unit in block.units and k.source_unit}
+        if not block.tears and fed <= before:
+            before |= set(block.units)
+    return before
 
 
 def _open_loop(found: Tried) -> Fault:

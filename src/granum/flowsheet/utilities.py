@@ -31,7 +31,8 @@ from granum.streams.utilities import COLD
 
 GAS_OUTLETS = ("exhaust", "vapor", "gas", "warmed_air")
 HOTTEST_DRYING = 453.15  # K, up to which the notes give a heat of vaporization
-DRYING = "evaporation_rate"  # the figure of a unit that says how much water it removes
+REMOVED = ("evaporation_rate", "evaporation")
+"""Figures by which a dryer or an evaporator, or a crystallizer, says how much water it removes."""
 
 
 class Totals(NamedTuple):
@@ -239,17 +240,18 @@ def cost_rate(taken: Mapping[str, float], prices: Mapping[str, Any]) -> float:
 
 
 def _water(line: Flowsheet, figures: Mapping[str, Any], streams: Mapping[str, Stream]) -> tuple[Any, Any]:
-    """Water that dryers of the line remove, and the temperature at which it leaves, on average."""
+    """Water that leaves units of the line as vapor, and the temperature at which it leaves, on average."""
     rows = []
     for unit, found in figures.items():
-        if not hasattr(found, DRYING):
+        said = next((name for name in REMOVED if hasattr(found, name)), None)
+        if said is None:
             continue
         leaves = [
             streams[k.name].temperature
             for k in line.links
             if k.source_unit == unit and k.origin.partition(".")[2] in GAS_OUTLETS
         ]
-        rows.append((getattr(found, DRYING), leaves[0] if leaves else ZERO_CELSIUS))
+        rows.append((getattr(found, said), leaves[0] if leaves else ZERO_CELSIUS))
     if not rows:
         return jnp.zeros(()), jnp.asarray(ZERO_CELSIUS)
     water = jnp.stack([jnp.maximum(jnp.asarray(x), 0.0) for x, _T in rows])

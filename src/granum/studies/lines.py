@@ -35,7 +35,7 @@ from granum.flowsheet.stream_figures import (
     stream_parameter,
     told_of,
 )
-from granum.flowsheet.utilities import DRYING, FIGURES, WATER, totals
+from granum.flowsheet.utilities import FIGURES, REMOVED, WATER, totals
 from granum.studies.subjects import (
     FINE,
     LOST,
@@ -179,7 +179,7 @@ class LineSubject(Subject):
         """What the units and the whole line take of each utility, which is shown when it is asked for."""
         own = [f"{u}.{name}" for u in self.sheet.order for name in type(self.sheet.units[u]).utilities]
         dries = any(
-            p.name == DRYING for u in self.sheet.order for p in type(self.sheet.units[u]).card.outputs
+            p.name in REMOVED for u in self.sheet.order for p in type(self.sheet.units[u]).card.outputs
         )
         whole = [f"{UTILITIES}.{name}" for name in FIGURES if dries or name not in WATER]
         return (*whole, *own)
