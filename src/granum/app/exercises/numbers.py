@@ -30,6 +30,7 @@ class Numbers:
     exercise: dict[str, Any]
     seed: int | None = None
     _known: dict[int, tuple[float, str]] = field(default_factory=dict)
+    _outcomes: dict[tuple[Any, ...], Any] = field(default_factory=dict)
 
     def drawn(self, name: str) -> tuple[float, str]:
         """A number of the statement with its unit."""
@@ -77,15 +78,22 @@ class Numbers:
         given = self.exercise["steps"][place]["inputs"] | (changed or {})
         return {name: PLACE.sub(put, text) for name, text in given.items() if text}
 
+    def outcome(self, place: int, changed: dict[str, str] | None = None, card: str = "") -> Any:
+        """What the card of a step answers, calculated once for the same inputs; ``changed`` replaces some, an
+        empty text takes one away.
+        """
+        key, given = card or self.exercise["steps"][place]["card"], self.inputs(place, changed)
+        asked = key, *given.items()
+        if asked not in self._outcomes:
+            self._outcomes[asked] = registry.find(key).evaluate(**given)
+        return self._outcomes[asked]
+
     def calculated(
         self, place: int, changed: dict[str, str] | None = None, card: str = "", output: str = ""
     ) -> float:
-        """What the card of a step gives, in the unit that is asked for; ``changed`` replaces inputs, an empty
-        text takes one away.
-        """
-        step = self.exercise["steps"][place]
-        asked = step["expected"]
-        result = registry.find(card or step["card"]).evaluate(**self.inputs(place, changed))
+        """What the card of a step gives, in the unit that is asked for; the rest as for the ``outcome``."""
+        asked = self.exercise["steps"][place]["expected"]
+        result = self.outcome(place, changed, card)
         wanted = output or asked["output"]
         kind = next(p.kind for p in result.card.outputs if p.name == wanted)
         assert kind is not None

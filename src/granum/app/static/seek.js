@@ -51,6 +51,7 @@ export function Seek() {
   const [open, setOpen] = useState(false);
   const [active, setActive] = useState(0);
   const input = useRef(null);
+  const eager = useRef(false); // Enter came before the answer
   const asked = word.trim();
   const found = useAnswer(
     (signal) =>
@@ -96,7 +97,13 @@ export function Seek() {
     close();
     location.hash = hrefOf(hit);
   };
+  useEffect(() => {
+    if (!eager.current || found.pending) return;
+    eager.current = false;
+    if (flat[at]) go(flat[at]);
+  });
   const press = (e) => {
+    eager.current = e.key === 'Enter' && found.pending;
     if (e.key === 'Escape') close();
     else if (e.key === 'ArrowDown' || e.key === 'ArrowUp') {
       e.preventDefault();
@@ -110,7 +117,9 @@ export function Seek() {
   const listed = open && asked !== '';
   let number = -1;
   return html`<div class=${open ? 'seek open' : 'seek'} role="search" onfocusout=${(e) => {
-    if (!e.currentTarget.contains(e.relatedTarget)) setOpen(false);
+    if (e.currentTarget.contains(e.relatedTarget)) return;
+    eager.current = false;
+    setOpen(false);
   }}>
     <button class="opener" aria-label=${t('Search everything')} aria-expanded=${String(open)} onClick=${show}><${Glass} /></button>
     <div class="sheet"><div class="line"><${Glass} /><input ref=${input} id="seek" type="text" enterkeyhint="search" autocomplete="off" spellcheck=${false} aria-label=${t('Search everything')} aria-controls="hits" aria-autocomplete="list" aria-activedescendant=${listed && flat.length ? `hit-${at}` : null}
