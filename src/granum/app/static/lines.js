@@ -18,7 +18,7 @@ import {
 import { order } from './cards.js';
 import { byTitle, caseAt, drafted, keepDraft, keepSteps, keptSteps, packed } from './drafts.js';
 import { Editor } from './line_editor.js';
-import { Forms, learn, pretty } from './line_forms.js';
+import { fieldOf, Forms, learn, pretty } from './line_forms.js';
 import { NewLine } from './line_new.js';
 import { Outcome } from './line_outcome.js';
 import { Palette } from './line_palette.js';
@@ -86,6 +86,7 @@ export function Lines({ state }) {
   const waiting = useRef(0);
   const across = useRef(5);
   const due = useRef(new Map());
+  const flying = useRef([]);
   const written = useRef(Promise.resolve());
   const files = () =>
     Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) =>
@@ -222,8 +223,10 @@ export function Lines({ state }) {
     try {
       const found = await ask('/api/case/edit', { case: latest.current, table, name, key, text: value });
       setTyping(due.current.size > 0); // somebody may type in the next field by now
+      setError(null);
       await change(found.case);
     } catch (problem) {
+      problem.details = { ...problem.details, unit: name, name: key };
       setError(problem);
     }
   };
@@ -267,10 +270,16 @@ export function Lines({ state }) {
     return open;
   };
   const complete = () => {
-    for (const { what } of drop()) next(() => edit(...what));
+    for (const { what } of drop()) {
+      const spot = what.slice(0, 3).join(' ');
+      flying.current.push(spot);
+      next(() => edit(...what)).finally(() => flying.current.splice(flying.current.indexOf(spot), 1));
+    }
     return written.current;
   };
-  const typedIn = { later, waits: (...spot) => due.current.has(spot.join(' ')) };
+  const waits = (...spot) => due.current.has(spot.join(' '));
+  // what is on its way into the case is not yet in the forms that an answer before it brings
+  const typedIn = { later, waits, keeps: (...spot) => waits(...spot) || flying.current.includes(spot.join(' ')) };
   const step = async (from, setFrom, setTo) => {
     if (!from.length) return;
     drop();
@@ -297,7 +306,7 @@ export function Lines({ state }) {
     addEventListener('keydown', key);
     return () => removeEventListener('keydown', key);
   });
-  const make = async (values) => {
+  const make = async (values, told) => {
     setError(null);
     try {
       const found = await ask('/api/case/build', { operation: 'begin', arguments: values });
@@ -306,7 +315,7 @@ export function Lines({ state }) {
       await open(begun);
       setPalette({ origin: Object.keys((await ask('/api/case/form', { case: found.case })).feeds)[0] });
     } catch (problem) {
-      setError(problem);
+      told(problem);
     }
   };
   /** What an open end brings, where the line as it stands is solved: a piece put on it is sized by that. */
@@ -380,6 +389,8 @@ export function Lines({ state }) {
   const old = Boolean(outcome && (busy || error || typing || text !== solved));
   const cases = outcome ? [...kept, { ...outcome, form }] : [];
   const missing = form?.missing || [];
+  const refused = fieldOf(form, error); // told at its field, in the panel where that is open
+  const inPanel = Boolean(refused && refused.unit === chosen.name);
   const labels = Object.fromEntries(
     (form?.ends.origins || []).map((end) => [end.stream, end.stream === end.value ? end.label : undefined]),
   );
@@ -418,7 +429,7 @@ export function Lines({ state }) {
       }} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${() => save(place === 'workspace:' + path)}>${t('Save')}</button></div>
       ${taken && html`<div class="row caution" role="alert">▲ ${t('There is another file of this name: {path}', { path })} <button class="button" onClick=${() => save(true)}>${t('Overwrite it')}</button> <button class="button" onClick=${() => setTaken(false)}>${t('Keep it')}</button></div>`}`
     }<span class="small dim" role="status">${told}</span>
-    ${form && html`<${Substances} form=${form} build=${build} /><${Forms} form=${form} typedIn=${typedIn} build=${build} problem=${error?.details} message=${error?.message} /><${Specifications} key=${place} form=${form} build=${build} />`}
+    ${form && html`<${Substances} form=${form} build=${build} /><${Forms} form=${form} typedIn=${typedIn} build=${build} refused=${inPanel ? null : refused} /><${Specifications} key=${place} form=${form} build=${build} />`}
     <details open=${writing} onToggle=${(e) => setWriting(e.target.open)}><summary>${t('Case file')}</summary><${Editor} text=${text} write=${setText} done=${change} /></details></details></section>
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
     ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
@@ -435,7 +446,7 @@ export function Lines({ state }) {
       stop.current?.abort();
       setBusy(false);
     }} job=${() => stop.current?.signal.job} text=${t('Working… a new line takes a little while the first time.')} />
-    ${error && html`<p class="message out" role="alert">${error.message}</p>`}
+    ${error && !(refused && (inPanel || setup)) && html`<p class="message out" role="alert">${error.message}</p>`}
     ${removed?.text === text && html`<p class="row small" role="status" data-removed>${t('Deleted: {name}', { name: removed.name })} <button class="button" onClick=${undo}>${t('Undo')}</button></p>`}
     ${missing.length > 0 && html`<div class="message caution" data-missing>${missing.map((one) => html`<p>▲ ${one}</p>`)}</div>`}
     ${
@@ -451,7 +462,7 @@ export function Lines({ state }) {
     }
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
     ${sized.text && sized.name === chosen.name && html`<p class="row small" role="status" data-sized><span>${sized.text}</span> ${sized.undo === text && html`<button class="button" onClick=${undo}>${t('Undo')}</button>`}</p>`}
-    <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} size=${size} />`}</div>
+    <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} size=${size} refused=${refused} />`}</div>
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
     ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} prices=${form?.prices} build=${build} /></div>`}</section></main>`;
 }

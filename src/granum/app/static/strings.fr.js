@@ -452,6 +452,9 @@ export const french = {
   'A gas with dust': 'Un gaz poussiéreux',
   'dissolved in it': 'dissous dedans',
   'New line': 'Nouvelle ligne',
+  'Size classes': 'Classes de taille',
+  'The case file lists boundaries of its own; what is given here takes their place.':
+    'Le fichier du cas donne ses propres bornes ; ce qui est donné ici en prend la place.',
   'title': 'titre',
   'What enters': 'Ce qui entre',
   'Amounts, temperature and sizes start from ordinary values; change them afterwards.':
