@@ -1,7 +1,7 @@
 // What a line is made of: each phase as a list, substances of the library or described by their constants.
 import { html, t, useState, useEffect } from './core.js';
 import { Field } from './form.js';
-import { inLanguage } from './quantity.js';
+import { readable } from './quantity.js';
 import { Choice, useSubstances, named } from './substance_choice.js';
 
 const PHASES = [
@@ -52,13 +52,12 @@ function SizeClasses({ classes, build }) {
     if (await build('set_size_classes', given, setProblem)) setTyped({});
   };
   const { smallest, largest } = classes.values;
-  return html`<details data-classes><summary>${t('Size classes')} <span class="dim">${smallest ? `${inLanguage(pretty_size(smallest))} … ${inLanguage(pretty_size(largest))}` : ''}</span></summary>
+  return html`<details data-classes><summary>${t('Size classes')} <span class="dim">${smallest ? `${readable(smallest, classes.rows[0])} … ${readable(largest, classes.rows[1])}` : ''}</span></summary>
     ${classes.own && html`<p class="small dim">${t('The case file lists boundaries of its own; what is given here takes their place.')}</p>`}
     <${Constants} id="classes" rows=${classes.rows} values=${values} set=${(key, text) => setTyped((before) => ({ ...before, [key]: text }))} problem=${problem} />
     ${problem && !classes.rows.some((row) => row.name === problem.details?.name) && html`<p class="message out" role="alert">${problem.message}</p>`}
     <div class="row"><button class="button" type="button" disabled=${!Object.keys(typed).length} onClick=${keep}>${t('Use these values')}</button></div></details>`;
 }
-const pretty_size = (text) => text.replace(/\bum\b/, 'µm');
 
 function offered(known, form, phase) {
   if (!known) return [];
