@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+from html import unescape
 from math import log
 
 import pytest
@@ -95,9 +96,13 @@ def test_it_is_said_in_french() -> None:
 def test_the_command_and_its_json_say_it(tmp_path) -> None:
     case = tmp_path / "line.toml"
     case.write_text(text_of("centrifuges.pusher"), encoding="utf-8")
-    shown = CliRunner().invoke(app, ["run", str(case)])
+    report = tmp_path / "line.html"
+    shown = CliRunner().invoke(app, ["run", str(case), "--report", str(report)])
     assert shown.exit_code == 0, shown.output
     assert "granum calc filtration.separator_choice" in " ".join(shown.output.split())
+    printed = re.search(r'<li class="advice">(.*?)</li>', report.read_text(encoding="utf-8"))
+    assert printed is not None
+    assert told("centrifuges.pusher").told in unescape(printed[1])
 
 
 @pytest.mark.parametrize("table", TABLES, ids="-".join)

@@ -151,7 +151,11 @@ def _size_classes(mixture: Mapping[str, Any]) -> dict[str, Any] | None:
     )
     own = "boundaries" in sizes
     values = {key: case_value(sizes[key]) for key in labels if key in sizes}
-    return {"rows": rows, "own": own, "values": {} if own else values | {"classes": f"{sizes.get('classes', 40)}"}}
+    return {
+        "rows": rows,
+        "own": own,
+        "values": {} if own else values | {"classes": f"{sizes.get('classes', 40)}"},
+    }
 
 
 def _specification(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -108,7 +108,10 @@ def _of_classes(message: str) -> str:
     """A message about the size classes of a line, with the words of their form."""
     beginning = _("{unit}: {message}").format(unit=_("size classes of the line"), message="")
     text = _CLASSES.sub(
-        lambda found: beginning if found.start() == 0 else _("the size classes of the line (under Substances)"), message
+        lambda found: (
+            beginning if found.start() == 0 else _("the size classes of the line (under Substances)")
+        ),
+        message,
     )
     words = {
         "smallest": _("smallest size"),
