@@ -14,7 +14,7 @@ from granum.app.wording import summary_words
 from granum.cases import building, describing
 from granum.cases.outline import outline, table_of
 from granum.cases.reading import knowing_own, parsed
-from granum.cases.scaling import scale_of, size_told
+from granum.cases.scaling import median_size_of, scale_of, size_told
 from granum.cases.starting import starting_values
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
@@ -65,8 +65,9 @@ def told_of(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
     key = registry.find(arguments["model"]).card.key
     with knowing_own(raw):
         made = starting_values(key, table_of(raw, "mixture"))
-        scale = scale_of(key, outline(case), arguments.get("origin", ""), arguments.get("brings"))
-        return size_told(key, made, scale)
+        found, origin, brings = outline(case), arguments.get("origin", ""), arguments.get("brings")
+        scale = scale_of(key, found, origin, brings)
+        return size_told(key, made, scale, median_size_of(found, origin, brings))
 
 
 def palette() -> list[dict[str, Any]]:

@@ -28,7 +28,7 @@ from granum.cases.flows import (
 )
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
 from granum.cases.reading import knowing_own, own_materials, parsed, quantity
-from granum.cases.scaling import entering, gas_of, scale_of, scaled
+from granum.cases.scaling import entering, gas_of, median_size_of, meshed, scale_of, scaled
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
 from granum.cases.starting import (
     GAS_PER_FEED,
@@ -350,7 +350,7 @@ def add_unit(
 ) -> str:
     """A piece of equipment with ordinary values; what ``origin`` names (a feed, or ``unit.outlet``) enters
     its first inlet. Its size follows from what that ``brings`` in a solved line, its ``mass_flow`` and of
-    this the ``solvent``, else from the feeds.
+    this the ``solvent``, and the openings of a screen from its ``median_size``; else from the feeds.
 
     A dryer or the like that needs gas gets a feed of hot gas of its own.
     """
@@ -365,6 +365,7 @@ def add_unit(
     made = dict(values) if values is not None else starting_values(thing.card.key, mixture)
     if values is None:
         made |= scaled(thing.card.key, made, scale_of(thing.card.key, found, origin, brings))
+        made |= meshed(thing.card.key, made, median_size_of(found, origin, brings))
     case = with_table(case, ("units", name), {"model": thing.card.key} | made)
     ports = thing.inlet_names()
     if origin:

@@ -324,7 +324,7 @@ export function Lines({ state }) {
     const stream = latest.current === solved && outcome?.streams[name];
     if (!stream) return {};
     const [solvent] = Object.values(stream.liquid);
-    const brings = { mass_flow: `${stream.mass_flow.value} kg/s` };
+    const brings = { mass_flow: `${stream.mass_flow.value} kg/s`, ...(stream.size?.median > 0 && { median_size: `${stream.size.median} m` }) };
     return { brings: solvent === undefined ? brings : { ...brings, solvent: `${solvent} kg/s` } };
   };
   const add = async (model) => {
