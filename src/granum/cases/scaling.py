@@ -69,6 +69,8 @@ SCREENS = frozenset(
     for name in ("screen", "vibrating_screen", "double_deck_screen", "triple_deck_screen")
 )
 """What has openings, which are those of its example, wider or narrower as what enters is coarse."""
+FINEST = {"comminution.vibrating_screen": 0.8e-3}
+"""m: below it the capacity of the screen falls to nothing by its own law (Karra's factor of fineness)."""
 OPENINGS = frozenset(("aperture", "wire_diameter", "cut_size"))
 EVAPORATES = "evaporation."  # the domain of what drives out solvent
 EVAPORATED = (0.9, 2.0)  # what is left must be left
@@ -146,7 +148,7 @@ def meshed(model: str, made: Mapping[str, Any], median: float | None) -> dict[st
     if model not in SCREENS or median is None:
         return {}
     openings = [_meters(x) for x in _openings(made)]
-    times = median / math.prod(openings) ** (1.0 / len(openings))
+    times = max(median, FINEST.get(model, 0.0)) / math.prod(openings) ** (1.0 / len(openings))
     return {name: _opened(name, x, times) for name, x in made.items() if x != _opened(name, x, times)}
 
 
@@ -204,7 +206,7 @@ def _grown(p: Parameter, value: Any, times: float) -> Any:
 def size_told(model: str, made: Mapping[str, Any], scale: Scale, median: float | None = None) -> str:
     """For what a piece of equipment was sized, in words; empty where it keeps the size of its example."""
     told = [_flow_told(model, made, scale)]
-    if median is not None and meshed(model, made, median):
+    if median is not None and median > FINEST.get(model, 0.0) and meshed(model, made, median):
         size = value_text(float(f"{median:.2g}"), Parameter("median_diameter", KINDS["Length"]))
         told.append(_("Its openings are around the median size of what enters, {size}.").format(size=size))
     return " ".join(filter(None, told))
