@@ -16,7 +16,7 @@ import {
   Working,
 } from './core.js';
 import { order } from './cards.js';
-import { byTitle, caseAt, drafted, keepDraft, keepSteps, keptSteps, packed } from './drafts.js';
+import { byTitle, caseAt, drafted, keepDraft, keepSteps, keptSteps, OwnLines, ownLines, packed } from './drafts.js';
 import { Editor } from './line_editor.js';
 import { fieldOf, Forms, learn, pretty } from './line_forms.js';
 import { NewLine } from './line_new.js';
@@ -78,6 +78,7 @@ export function Lines({ state }) {
   const [writing, setWriting] = useState(false);
   const [setup, setSetup] = useState(!stacked.matches);
   const [removed, setRemoved] = useState(null);
+  const [forgotten, setForgotten] = useState(null); // of the lines kept in this browser
   const [sized, setSized] = useState({ name: '', text: '' }); // for what a piece was sized
   const stop = useRef(null);
   const latest = useRef('');
@@ -116,6 +117,10 @@ export function Lines({ state }) {
     setCarried(short);
     replaceLink('lines', where.current, { case: short });
     return short;
+  };
+  const forget = ({ place, title }) => {
+    setForgotten({ place, title, text: drafted(place) });
+    keepDraft(place, null);
   };
   const settle = (next) => {
     where.current = next;
@@ -399,7 +404,7 @@ export function Lines({ state }) {
     <a class="button" onClick=${study} href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`;
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
     <div class="row"><button class="button ${text ? '' : 'main'}" onClick=${() => setMaking(true)}>${t('New line')}</button><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
-      ${place.startsWith('computer:') && html`<option value=${place} selected>${place.slice(9)}</option>`}
+      <${OwnLines} place=${place} />
       ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${byTitle(list).map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${list.titles[f] || f}</option>`)}</optgroup>`}
       ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select></div>
     <div class="row"><button class="button main" disabled=${!text || busy} onClick=${async () => {
@@ -453,6 +458,11 @@ export function Lines({ state }) {
       !text &&
       !making &&
       html`<h2 class="first">${t('Start a new line')}</h2><p>${t('Choose what enters, put equipment behind it, and see it solved after each step.')}</p><button class="button main" onClick=${() => setMaking(true)}>${t('New line')}</button>
+    ${ownLines().length > 0 && html`<h2>${t('Kept in this browser')}</h2><div class="columns tiles" data-own-lines>${ownLines().map((row) => html`<div class="own" key=${row.place}><button class="tile" onClick=${() => open(row.place)}>${row.title}</button><button class="button" aria-label=${t('Delete {name}', { name: row.title })} onClick=${() => forget(row)}>×</button></div>`)}</div>`}
+    ${forgotten && html`<p class="row small" role="status" data-forgotten>${t('Deleted: {name}', { name: forgotten.title })} <button class="button" onClick=${() => {
+      keepDraft(forgotten.place, forgotten.text);
+      setForgotten(null);
+    }}>${t('Undo')}</button></p>`}
     <h2>${t('Start from an example')}</h2>${byDomain(list).map(([domain, files]) => html`<h3>${domain ? t(domain) : t('Several operations')}</h3><div class="columns tiles">${files.map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}</button>`)}</div>`)}`
     }
     ${

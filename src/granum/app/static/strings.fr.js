@@ -215,6 +215,8 @@ export const french = {
   'Open…': 'Ouvrir…',
   'Examples': 'Exemples',
   'Workspace': 'Espace de travail',
+  'Delete {name}': 'Supprimer {name}',
+  'Kept in this browser': 'Gardées dans ce navigateur',
   'Solve': 'Résoudre',
   'Cancel': 'Interrompre',
   'Working…': 'Calcul en cours…',
