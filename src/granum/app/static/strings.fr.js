@@ -471,6 +471,8 @@ export const french = {
   'One other limit is kept.': 'Une autre limite est respectée.',
   '{count} other limits are kept.': '{count} autres limites sont respectées.',
   'All {count} practical limits are kept.': 'Les {count} limites pratiques sont toutes respectées.',
+  'No unit of this line has a practical limit to check.':
+    'Aucune unité de cette ligne n’a de limite pratique à vérifier.',
   'found': 'trouvé',
   'Sizes and duties': 'Tailles et puissances',
   'Name': 'Nom',
