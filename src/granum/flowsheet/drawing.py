@@ -332,7 +332,8 @@ def draw(
     name = escape(_("Flow diagram"))
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" role="group" '
-        f'aria-label="{name}" font-family="system-ui, sans-serif" data-width="{width:g}" '
+        f'aria-label="{name}" font-family="system-ui, sans-serif" '
+        f'data-width="{width:g}" data-across="{sheet.across}" '
         f'style="width:100%;max-width:{width:g}px"><defs>{tips}</defs>{"".join(parts)}</svg>'
     )
 

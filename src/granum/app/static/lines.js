@@ -131,9 +131,10 @@ export function Lines({ state }) {
     latest.current = next;
     setText(next);
     setReading(true);
+    const asked = across.current;
     try {
-      const found = await ask('/api/case/form', { case: next, across: across.current, place: where.current });
-      if (latest.current === next) {
+      const found = await ask('/api/case/form', { case: next, across: asked, place: where.current });
+      if (latest.current === next && across.current === asked) {
         learn(found.names);
         setForm(found);
       }
