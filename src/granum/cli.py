@@ -270,7 +270,7 @@ def run(
             raise
     if report is not None:
         with working(_("Writing the report"), quiet=as_json):
-            outcome.report(report)
+            outcome.report(report, {n: one["told"] for n, one in _advice(outcome).get("advice", {}).items()})
     if tables is not None:
         outcome.tables(tables)
     if as_json:

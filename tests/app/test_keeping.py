@@ -141,3 +141,32 @@ def test_studies_of_a_file_are_offered(page: Page, address: str) -> None:
     assert labels
     assert not [text for text in labels if ": " in text and " : " not in text.replace("\u00a0", " ")]
     page.check()
+
+
+def test_lines_of_ones_own_are_found_again_by_their_titles(page: Page) -> None:
+    """Two lines are begun; whoever comes back finds both, deletes one, and takes that back."""
+    page.open("lines", "fr")
+    for title in ("Chaux éteinte", 'Sucre "n° 1"'):
+        page.visit("lines")
+        page.button("Nouvelle ligne").click()
+        page.type("#new-title", title)
+        page.until(lambda: page.all("#new-solute"))
+        page.button("Créer la ligne").click()
+        page.one("[data-palette]")
+        page.until(lambda: "case=" in page.browser.current_url)
+    page.browser.get(f"{page.address}/?lang=fr#/lines")
+    page.browser.refresh()
+    page.settle()
+    kept = "[data-own-lines] .tile"
+    assert page.texts(kept) == ["Chaux éteinte", 'Sucre "n° 1"']
+    page.check()
+    page.one("[data-own-lines] [aria-label='Supprimer Chaux éteinte']").click()
+    page.until(lambda: page.texts(kept) == ['Sucre "n° 1"'])
+    page.one("[data-forgotten] button").click()
+    page.until(lambda: len(page.all(kept)) == 2)
+    page.visit("studies")
+    offered = page.texts("main select optgroup:first-of-type option")
+    assert offered == ["Chaux éteinte", 'Sucre "n° 1"']
+    page.visit("lines")
+    page.all(kept)[0].click()
+    page.says("h2.title", "Chaux éteinte")

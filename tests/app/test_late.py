@@ -151,3 +151,23 @@ def test_answers_are_held_while_an_exam_is_marked(page: Page) -> None:
     page.until(lambda: not page.all(".exam-paper .quantity input"))
     page.one("[data-score]")
     assert "No answer." not in page.all("[data-verdict]")[0].text
+
+
+def test_what_is_on_its_way_into_a_line_is_not_taken_back_by_an_answer_before_it(page: Page) -> None:
+    page.open("lines/examples:dryers/solar.toml")
+    page.until(lambda: page.all("[data-form] input"))  # a count, whose text no unit can be parted from
+    place = next(
+        f"#{p.get_attribute('id')}"
+        for p in page.all("[data-form] input")
+        if (p.get_attribute("id") or "").endswith("-days")
+    )
+    late(page, case_form=[1500, 1500, 0])
+    field = typed(page, place, "1")
+    waited = "setTimeout(arguments[1], arguments[0])"
+    page.browser.execute_async_script(waited, 700)  # the first text is on its way
+    field.send_keys("2")
+    for _look in range(12):
+        page.browser.execute_async_script(waited, 200)
+        assert field.get_attribute("value") == "12"
+    field.send_keys("3")
+    assert field.get_attribute("value") == "123"

@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import random
 import tomllib
+from math import log
 from pathlib import Path
 from typing import Any
 
@@ -479,3 +480,24 @@ def test_a_dryer_on_a_stream_has_gas_section_and_shape_of_its_example() -> None:
     feeds = tomllib.loads(text)["feeds"]
     assert quantity(feeds["hot_gas"]["gas_flow"], "MassFlow", "gas_flow", "") == pytest.approx(gas, rel=0.05)
     assert feeds["moist_solid"]["solid"] == {"quartz": "100 %"}, "sand is what the library calls quartz"
+
+
+def test_a_screen_opens_around_the_sizes_that_enter_it() -> None:
+    """Half of what enters is finer than the median: a screen of the example's 8 mm would pass all of it."""
+    text = b.begin("Sand", "suspension", solid="quartz")
+    feed = tomllib.loads(text)["feeds"]["suspension"]["sizes"]
+    median = 150.0 * log(2.0) ** (1.0 / feed["distribution_exponent"])  # Rosin and Rammler's, µm
+    made = tomllib.loads(b.add_unit(text, "comminution.screen", origin="suspension"))["units"]
+    (screen,) = made.values()
+    assert float(screen["separation"]["cut_size"].removesuffix(" um")) == pytest.approx(median, rel=0.05)
+    brought = {"mass_flow": "1 kg/s", "median_size": "20 mm"}
+    made = tomllib.loads(
+        b.add_unit(text, "comminution.double_deck_screen", origin="suspension", brings=brought)
+    )
+    (decks,) = made["units"].values()
+    upper, lower = (float(decks[name]["cut_size"].split()[0]) for name in ("upper_deck", "lower_deck"))
+    assert (upper * lower) ** 0.5 == pytest.approx(20.0, rel=0.05)
+    assert upper / lower == pytest.approx(12.0 / 4.0, rel=0.05)  # of the example
+    # karra1979: no capacity is left below 0.6 mm
+    made = tomllib.loads(b.add_unit(text, "comminution.vibrating_screen", origin="suspension"))["units"]
+    assert made[next(iter(made))]["aperture"] == "800 um"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+from html import unescape
 from math import log
 
 import pytest
@@ -78,6 +79,23 @@ def test_a_machine_whose_checks_hold_is_left_alone() -> None:
     assert advice(run) == {}
 
 
+def test_a_salt_that_cooling_leaves_dissolved_is_to_be_boiled_down() -> None:
+    """mullin2001, ch. 8: a solubility that hardly changes with temperature asks for evaporation."""
+    text = add_unit(
+        begin("Salt", "solution", solute="sodium chloride"), "crystallization.msmpr", origin="solution"
+    )
+    (found,) = advice(read_text(text, name="essai").solve()).values()
+    assert found.card == "crystallization.choose"
+    assert found.others[0].name.startswith("evaporation")
+    assert found.inputs["temperature_hot"] == "80 degC"
+    crop = float(re.findall(r"gives ([\d.]+) %", found.told)[0])
+    # handbooks: 36 g in 100 g of water at 25 °C, 38 g at 80 °C
+    assert crop == pytest.approx(100.0 * (1.0 - 36.0 / 38.0), abs=1.0)
+    shown = CliRunner().invoke(app, shlex.split(found.command)[1:])
+    assert shown.exit_code == 0, shown.output
+    assert "evaporation" in shown.output
+
+
 def test_where_no_other_sort_is_better_the_settings_are_looked_at() -> None:
     found = told("drying.rotary_dryer", enters="moist_solid")
     assert found.others == ()
@@ -95,9 +113,13 @@ def test_it_is_said_in_french() -> None:
 def test_the_command_and_its_json_say_it(tmp_path) -> None:
     case = tmp_path / "line.toml"
     case.write_text(text_of("centrifuges.pusher"), encoding="utf-8")
-    shown = CliRunner().invoke(app, ["run", str(case)])
+    report = tmp_path / "line.html"
+    shown = CliRunner().invoke(app, ["run", str(case), "--report", str(report)])
     assert shown.exit_code == 0, shown.output
     assert "granum calc filtration.separator_choice" in " ".join(shown.output.split())
+    printed = re.search(r'<li class="advice"[^>]*>(.*?)</li>', report.read_text(encoding="utf-8"))
+    assert printed is not None
+    assert told("centrifuges.pusher").told in unescape(printed[1])
 
 
 @pytest.mark.parametrize("table", TABLES, ids="-".join)

@@ -13,6 +13,7 @@ import pytest
 from granum.cases.outline import Outline, outline
 from granum.core.i18n import LANGUAGES, language
 from granum.flowsheet.drawing import LETTER, Loose, draw
+from granum.flowsheet.plan import Link, plan, returning
 
 SVG = "{http://www.w3.org/2000/svg}"
 EXAMPLES = [
@@ -100,3 +101,21 @@ def test_no_name_of_a_diagram_is_cut_or_crossed(code: str, across: int) -> None:
         for path in EXAMPLES:
             assert not faults(outline(path.read_text(encoding="utf-8")), across), path
         assert not faults(outline(SHORT), across)
+
+
+def test_a_loop_is_drawn_from_where_it_is_entered() -> None:
+    """A mixer put in by the page is the last unit of the file: the mill behind it had been drawn first."""
+    units = ("crusher", "mill", "screen", "mixer")
+    links = (
+        Link("rock", "", "crusher.feed"),
+        Link("crushed", "crusher.product", "mixer.crushed"),
+        Link("ground", "mill.product", "screen.feed"),
+        Link("mixed", "mixer.product", "mill.feed"),
+        Link("oversize", "screen.oversize", "mixer.oversize"),
+        Link("screen.undersize", "screen.undersize", ""),
+    )
+    blocks = plan(units, links)
+    assert returning(blocks, links) == {"oversize"}
+    # a loop that begins where it is entered comes back as it is torn
+    around = (Link("in", "", "a.feed"), Link("on", "a.out", "b.feed"), Link("back", "b.out", "a.more"))
+    assert returning(plan(("a", "b"), around), around) == {"back"}

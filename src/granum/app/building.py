@@ -1,5 +1,5 @@
-"""What the page needs to build a line: the operations on the text of a case, the equipment to choose from,
-the substances of the library.
+"""What the page needs to build a line: the operations on the text of a case and the equipment to choose
+from.
 """
 
 from __future__ import annotations
@@ -9,20 +9,18 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
-from granum.app.own_substances import asked_of_substances
+from granum.app.offered import require_offered
 from granum.app.wording import summary_words
 from granum.cases import building, describing
 from granum.cases.outline import outline, table_of
 from granum.cases.reading import knowing_own, parsed
-from granum.cases.scaling import scale_of, size_told
+from granum.cases.scaling import median_size_of, scale_of, size_told
 from granum.cases.starting import starting_values
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, current_language
 from granum.core.index import entries
-from granum.core.words import plain
 from granum.flowsheet.symbols import symbol_of
-from granum.materials.library import session
 
 OPERATIONS: dict[str, Callable[..., str]] = {
     **{name: getattr(building, name) for name in building.__all__},
@@ -55,6 +53,7 @@ def built(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
                 _("'{name}' cannot take this value: {value}.").format(name=name, value=str(value)[:60]),
                 name=name,
             )
+    require_offered(operation, case, arguments)
     return function(**words)
 
 
@@ -66,8 +65,9 @@ def told_of(operation: str, case: str, arguments: Mapping[str, Any]) -> str:
     key = registry.find(arguments["model"]).card.key
     with knowing_own(raw):
         made = starting_values(key, table_of(raw, "mixture"))
-        scale = scale_of(key, outline(case), arguments.get("origin", ""), arguments.get("brings"))
-        return size_told(key, made, scale)
+        found, origin, brings = outline(case), arguments.get("origin", ""), arguments.get("brings")
+        scale = scale_of(key, found, origin, brings)
+        return size_told(key, made, scale, median_size_of(found, origin, brings))
 
 
 def palette() -> list[dict[str, Any]]:
@@ -96,46 +96,3 @@ def _palette(_language: str) -> list[dict[str, Any]]:
         for c in entries().values()
         if c.sort == "equipment"
     ]
-
-
-def substances() -> dict[str, Any]:
-    """What a line can be made of, by the part it plays, and what is asked of a substance of one's own, in the
-    current language.
-    """
-    return _substances(current_language())
-
-
-@cache
-def _substances(language: str) -> dict[str, Any]:
-    known = session()
-
-    def labelled(name: str, entry: Any) -> dict[str, Any]:
-        return {"value": name, "label": entry.fr if language == "fr" and entry.fr else name}
-
-    def ordered(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-        return sorted(rows, key=lambda row: plain(row["label"]))
-
-    fluids, solids = known.entries("fluid"), known.entries("solid")
-    solutes = [
-        labelled(name.partition(" in ")[0], entry)
-        | {
-            "solvent": entry.solvent,
-            "crystals": [branch.crystal for branch in entry.branches],
-            "complete": entry.viscosity is not None
-            and all(branch.heat_of_solution is not None for branch in entry.branches),
-        }
-        for name, entry in known.entries("solute").items()
-    ]
-    return {
-        "liquids": ordered([labelled(n, e) for n, e in fluids.items() if e.liquid_density is not None]),
-        "solutes": ordered(solutes),
-        "solids": ordered(
-            [
-                labelled(n, e)
-                for n, e in solids.items()
-                if e.density is not None and e.heat_capacity is not None
-            ]
-        ),
-        "gases": ordered([labelled(n, e) for n, e in fluids.items()]),
-        "own": asked_of_substances(),
-    }

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from granum.app.closed_lists import choose_within
-from granum.app.forms import card_form, laws_of, offered_unit, options, typed
+from granum.app.forms import bounds_text, card_form, laws_of, offered_unit, options, typed
 from granum.app.own_substances import form_row, own_substances
-from granum.cases.building import completed, share_of_feed
+from granum.cases.building import MOST_CLASSES, completed, share_of_feed
 from granum.cases.outline import Outline, outline, table_of
 from granum.cases.reading import knowing_own, parsed, read_text
 from granum.cases.resizing import CAPACITY, FULL
@@ -22,7 +22,7 @@ from granum.core import registry
 from granum.core.documents import table_in
 from granum.core.errors import CaseError, GranumError, InputError
 from granum.core.i18n import _
-from granum.core.kinds import KINDS
+from granum.core.kinds import KINDS, Within
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, pretty_unit
 from granum.core.utilities import carrier
@@ -33,7 +33,7 @@ from granum.flowsheet.utilities import price_parameter
 from granum.materials.library import session
 from granum.reports.quantities import value_text
 from granum.reports.utilities import carrier_label
-from granum.streams.names import port_label, pretty
+from granum.streams.names import port_label, pretty, share_label
 
 PARTS = ("liquids", "solids", "gases")
 FEED_KINDS = {
@@ -121,6 +121,7 @@ def _form_of(found: Outline, across: int) -> dict[str, Any]:
             if isinstance(table, dict)
         },
         "substances": {phase: listed(mixture, phase) for phase in PARTS},
+        "classes": _size_classes(mixture),
         "own": own_substances(raw),
         "labels": {name: session().label(name) for phase in PARTS for name in listed(mixture, phase)},
         "specifications": {
@@ -134,6 +135,26 @@ def _form_of(found: Outline, across: int) -> dict[str, Any]:
         },
         "missing": list(found.missing),
         "diagram": draw(found, None, across, [Loose(*port) for port in found.open_inlets], growing=True),
+    }
+
+
+def _size_classes(mixture: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The size classes of a line as a form; None where it has no solid."""
+    if not listed(mixture, "solids"):
+        return None
+    sizes = table_of(mixture, "sizes") or {"smallest": "1 um", "largest": "10 mm"}
+    labels = {"smallest": _("smallest size"), "largest": _("largest size")}
+    rows = [form_row(Parameter(key, KINDS["Length"])) | {"label": labels[key]} for key in labels]
+    count = Parameter("classes", sort=int, within=Within(1, MOST_CLASSES))
+    rows.append(
+        form_row(count) | {"label": _("number of size classes"), "allowed": bounds_text(count), "sort": "int"}
+    )
+    own = "boundaries" in sizes
+    values = {key: case_value(sizes[key]) for key in labels if key in sizes}
+    return {
+        "rows": rows,
+        "own": own,
+        "values": {} if own else values | {"classes": f"{sizes.get('classes', 40)}"},
     }
 
 
@@ -171,11 +192,6 @@ def _prices(found: Outline) -> list[dict[str, Any]]:
             price = case_value(written.get(name, ""))
             rows.append(row | {"name": name, "label": carrier_label(name), "value": price})
     return rows
-
-
-def share_label(phase: str, species: str) -> str:
-    """``Potassium nitrate in the liquid``."""
-    return _("{species} in the {phase}").format(species=session().label(species), phase=_(phase))
 
 
 def _ends(found: Outline) -> dict[str, list[dict[str, Any]]]:

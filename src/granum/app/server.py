@@ -20,12 +20,13 @@ from starlette.exceptions import HTTPException
 import granum
 from granum.app import exercises
 from granum.app.alone_forms import alone_form
-from granum.app.building import built, palette, substances, told_of
+from granum.app.building import built, palette, told_of
 from granum.app.case_forms import edited, line_form
 from granum.app.finding import SHOWN, found
 from granum.app.forms import card_form, read_entry
 from granum.app.jobs import Broken, GivenUp, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
+from granum.app.offered import substances
 from granum.app.page_files import STATIC, serve_page
 from granum.app.reading import as_html
 from granum.app.sending import Shorter, kept, lasting

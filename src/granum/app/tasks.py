@@ -398,7 +398,8 @@ def report(payload: dict[str, Any], tell: Tell) -> bytes:
 
     outcome = _outcome(payload, tell)
     tell(0.5, _("writing the report"))
-    return line_report(outcome).encode()
+    told = {name: one.told for name, one in advice(outcome).items()}
+    return line_report(outcome, told).encode()
 
 
 def tables(payload: dict[str, Any], tell: Tell) -> bytes:

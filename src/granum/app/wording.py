@@ -17,12 +17,15 @@ from granum.streams.names import pretty
 
 _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
+_SHARE = re.compile(r" \((?:'|«\s)(?:liquid|solid|gas)\.[^'»]+?(?:'|\s»)\)")  # label ('liquid.water')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
 # what is quoted after the word for a stream or a unit, of which the ends do in both languages
 _OF_LINE = re.compile(r"((?:[Ss]tream|[Uu]nit|ourant|areil|unité) (?:'|«\s))([\w.]+)(?='|\s»)")
 _CODE = re.compile(r"``([a-z][a-z0-9_]*)``")
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\](:? ?)")
+_DOUBLE = re.compile(rf"\w+ \({_QUOTED}\)")  # name ('name')
+_CLASSES = re.compile(r"\[mixture\.sizes\]:? ?")
 _STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
 _BEGINNING = re.compile(r"^.|(?<=[^\W\d]{2}[.?!] )[^\W\d_](?=[^\W\d_.]+[ ,])")
@@ -39,9 +42,11 @@ def page_words(message: str, allowed: object = None, kept: Collection[object] = 
     ... )
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
     """  # noqa: E501
+    if _CLASSES.search(message):
+        message = _of_classes(message)
     text = _STUDY.sub("", _PLACE.sub(lambda found: _placed(found, message), message))
     text = _OF_LINE.sub(lambda found: found[0] if found[2] in kept else found[1] + pretty(found[2]), text)
-    text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
+    text = _SHARE.sub("", _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text))
     text = _WITH_LABEL.sub(_labelled, text)
     text = _ALONE.sub(
         lambda found: (
@@ -97,6 +102,25 @@ def noticed(flags: list[Any]) -> list[Any]:
         else flag
         for flag in flags
     ]
+
+
+def _of_classes(message: str) -> str:
+    """A message about the size classes of a line, with the words of their form."""
+    beginning = _("{unit}: {message}").format(unit=_("size classes of the line"), message="")
+    text = _CLASSES.sub(
+        lambda found: (
+            beginning if found.start() == 0 else _("the size classes of the line (under Substances)")
+        ),
+        message,
+    )
+    words = {
+        "smallest": _("smallest size"),
+        "largest": _("largest size"),
+        "classes": _("number of size classes"),
+        "boundaries": _("boundaries"),
+    }
+    text = _DOUBLE.sub(lambda found: words.get(found[1], found[1]), text)
+    return _ALONE.sub(lambda found: _("‘{label}’").format(label=words.get(found[1], found[1])), text)
 
 
 def _labelled(found: re.Match[str]) -> str:

@@ -28,7 +28,7 @@ from granum.cases.flows import (
 )
 from granum.cases.outline import Outline, free_name, identifier, numbered, outline, table_of
 from granum.cases.reading import knowing_own, own_materials, parsed, quantity
-from granum.cases.scaling import entering, gas_of, scale_of, scaled
+from granum.cases.scaling import entering, gas_of, median_size_of, meshed, scale_of, scaled
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
 from granum.cases.starting import (
     GAS_PER_FEED,
@@ -71,6 +71,7 @@ __all__ = [
     "replace",
     "retitle",
     "set_price",
+    "set_size_classes",
     "set_specification",
     "share_of_feed",
     "use_fit",
@@ -78,6 +79,7 @@ __all__ = [
 
 
 Rest = ParamSpec("Rest")
+MOST_CLASSES = 400  # that a person asks for; a line of more takes minutes
 
 
 def _with_own_known(step: Callable[Concatenate[str, Rest], str]) -> Callable[Concatenate[str, Rest], str]:
@@ -121,7 +123,14 @@ def new_line(
     return f"{text}\n{own.strip()}\n" if own.strip() else text
 
 
-BEGINNINGS = ("solution", "suspension", "moist_solid", "broken_solid", "dusty_gas")
+BEGINNINGS = {
+    "solution": ("liquid", "solute"),
+    "suspension": ("liquid", "solid"),
+    "moist_solid": ("solid", "liquid", "gas"),
+    "broken_solid": ("solid",),
+    "dusty_gas": ("gas", "solid"),
+}
+"""What may enter a line first, and the substances that it is made of."""
 
 
 def begin(
@@ -185,6 +194,28 @@ def _require_mixture(species: Mapping[str, Sequence[str]], own: Mapping[str, Any
             raise InputError(_("'{name}' is chosen twice.").format(name=twice), name="liquids")
     described = filter(None, [own_materials(own or {})])
     mixture_of(species["liquids"], species["solids"], species["gases"], (1e-6, 1e-3), own=described)
+
+
+def set_size_classes(case: str, smallest: str, largest: str, classes: str) -> str:
+    """Other size classes, of one ratio between two sizes; boundaries that the case lists go.
+
+    >>> text = new_line("Salt", ["water"], ["quartz"])
+    >>> [line for line in set_size_classes(text, "5 um", "2 mm", "30").splitlines() if "smallest" in line]
+    ['sizes = { smallest = "5 um", largest = "2 mm", classes = 30 }']
+    """
+    ends = {"smallest": smallest, "largest": largest}
+    low, high = (quantity(text, "Length", name, _("in [mixture.sizes]")) for name, text in ends.items())
+    if low >= high:
+        raise InputError(_("[mixture.sizes] 'smallest' must be below 'largest'."), name="smallest")
+    count = int(classes) if classes.strip().isdecimal() and len(classes) < 5 else 0
+    if not 1 <= count <= MOST_CLASSES:
+        raise InputError(
+            _("[mixture.sizes] 'classes' = {count}: a whole number from 1 to {most} is needed.").format(
+                count=classes.strip()[:20] or "''", most=MOST_CLASSES
+            ),
+            name="classes",
+        )
+    return with_value(case, ("mixture",), "sizes", ends | {"classes": count})
 
 
 @_with_own_known
@@ -319,7 +350,7 @@ def add_unit(
 ) -> str:
     """A piece of equipment with ordinary values; what ``origin`` names (a feed, or ``unit.outlet``) enters
     its first inlet. Its size follows from what that ``brings`` in a solved line, its ``mass_flow`` and of
-    this the ``solvent``, else from the feeds.
+    this the ``solvent``, and the openings of a screen from its ``median_size``; else from the feeds.
 
     A dryer or the like that needs gas gets a feed of hot gas of its own.
     """
@@ -334,6 +365,7 @@ def add_unit(
     made = dict(values) if values is not None else starting_values(thing.card.key, mixture)
     if values is None:
         made |= scaled(thing.card.key, made, scale_of(thing.card.key, found, origin, brings))
+        made |= meshed(thing.card.key, made, median_size_of(found, origin, brings))
     case = with_table(case, ("units", name), {"model": thing.card.key} | made)
     ports = thing.inlet_names()
     if origin:

@@ -2,26 +2,32 @@
 numbers of the stream.
 
 Dryers are held against ``drying.choose``, what parts solid from liquid against
-``filtration.separator_choice``. What such a card asks and no stream tells, such as what the product bears,
-stays as the card has it. Whether a feed is a liquid, a paste or a powder follows from its size and its share
-of liquid: our own estimate, which the card shows and everybody can change there.
+``filtration.separator_choice``, crystallizers against ``crystallization.choose``; mills have no ranked card.
+What such a card asks and no stream tells, such as what the product bears, stays as the card has it. Whether a
+feed is a liquid, a paste or a powder follows from its size and its share of liquid: our own estimate, which
+the card shows and everybody can change there.
 """
 
 from __future__ import annotations
 
+import json
 import shlex
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from granum.cases.starting import crystals_of
 from granum.core import registry
 from granum.core.compiling import once
 from granum.core.datasets import dataset
 from granum.core.errors import GranumError
 from granum.core.i18n import _
+from granum.core.kinds import KINDS
 from granum.core.units import from_si
 from granum.flowsheet.run import Run, UnitReport
+from granum.materials.library import session
 from granum.streams.stream import Stream, median_size
 
 SETTLED = 0.75  # of the best: from here on a machine fits well, and its settings are to be looked at
@@ -31,11 +37,28 @@ REASONS = 2  # of each
 FLOWING, STANDING = 0.4, 0.6  # volume of solid in solid and liquid: below it flows, above it crumbles
 FINE, COARSE = 100e-6, 5e-3  # m: grains below stick to a paste, those above are pieces
 DRYERS, SEPARATORS = ("drying", "dryers_houdon2017"), ("filtration", "separators_svarovsky2001")
+WAYS = {
+    ("cooling through a wall", "continuous"): ("msmpr", "classified_crystallizer", "needle_crystallizer"),
+    ("cooling through a wall", "seeded batch"): (
+        "jacketed_batch_crystallizer",
+        "batch_crystallizer",
+        "controlled_batch_crystallizer",
+        "nucleation_controlled_crystallizer",
+    ),
+    ("cooling through a wall", "fluidized bed (Oslo), classified product"): ("oslo_crystallizer",),
+    ("vacuum (adiabatic) cooling", "continuous"): ("vacuum_crystallizer",),
+    ("vacuum (adiabatic) cooling", "seeded batch"): ("vacuum_batch_crystallizer",),
+    ("antisolvent", "continuous"): ("antisolvent_crystallizer",),
+    ("antisolvent", "seeded batch"): ("antisolvent_batch_crystallizer",),
+}
+"""By way to crystallize, as ``crystallization.choose`` calls it, the units that model it; what boils is not
+among them, as a crystallizer is advised about only where it cools.
+"""
 WEBS = ("drying.paper_machine", "drying.impingement_dryer", "drying.radiant_dryer")
 
 
 class Other(NamedTuple):
-    """A machine that suits: its name, what speaks for it, the unit that models it."""
+    """A machine or a way that suits: its name, what speaks for it, the unit that models it, if any does."""
 
     name: str
     reasons: str
@@ -71,10 +94,13 @@ class Advice(NamedTuple):
 
 
 class _Choice(NamedTuple):
-    """A ranked card: the table of its machines, and what it is asked about a unit."""
+    """A ranked card: the units that model each of its machines, the first of the reasons that it tells, and
+    what it is asked about a unit.
+    """
 
     card: str
-    table: tuple[str, str]
+    models: Callable[[], dict[str, list[str]]]
+    first: Callable[[str], str]
     asked: Callable[[UnitReport, Mapping[str, Stream], Mapping[str, Stream]], dict[str, str] | None]
 
 
@@ -104,10 +130,24 @@ def _advised(run: Run, name: str, report: UnitReport) -> Advice | None:
 def _choice(key: str) -> _Choice | None:
     domain = key.partition(".")[0]
     if domain == "drying":
-        return _Choice("drying.choose", DRYERS, _of_dryer)
+        return _Choice("drying.choose", partial(_table, DRYERS), _first, _of_dryer)
     if any(key in row["models"].split() for row in dataset(*SEPARATORS)):
-        return _Choice("filtration.separator_choice", SEPARATORS, _of_separator)
+        return _Choice("filtration.separator_choice", partial(_table, SEPARATORS), _first, _of_separator)
+    if domain == "crystallization" and any(key.partition(".")[2] in models for models in WAYS.values()):
+        return _Choice("crystallization.choose", _ways, _sentence, _of_crystallizer)
     return None
+
+
+def _table(place: tuple[str, str]) -> dict[str, list[str]]:
+    return {_(row["name"]): row["models"].split() for row in dataset(*place)}
+
+
+def _ways() -> dict[str, list[str]]:
+    return {
+        f"{_(mode)}, {_(how)}": [f"crystallization.{name}" for name in WAYS.get((mode, how), ())]
+        for mode in ("cooling through a wall", "vacuum (adiabatic) cooling", "evaporation", "antisolvent")
+        for how in ("continuous", "seeded batch", "fluidized bed (Oslo), classified product")
+    }
 
 
 def _ends(run: Run, name: str, side: str) -> dict[str, Stream]:
@@ -117,7 +157,7 @@ def _ends(run: Run, name: str, side: str) -> dict[str, Stream]:
 
 
 def _told(key: str, choice: _Choice, asked: dict[str, str], ranked: Any) -> Advice | None:
-    models = {_(row["name"]): row["models"].split() for row in dataset(*choice.table)}
+    models = choice.models()
     names, marks = list(ranked[0]), np.asarray(ranked.suitability)
     own = [i for i, name in enumerate(names) if key in models[name]]
     mark = max((float(marks[i]) for i in own), default=0.0)
@@ -129,8 +169,12 @@ def _told(key: str, choice: _Choice, asked: dict[str, str], ranked: Any) -> Advi
         )
         return Advice(choice.card, asked, (), told.format(machine=title))
     better = [i for i in range(len(names)) if marks[i] >= max(FITS, mark) and i not in own][:MOST]
-    others = tuple(Other(names[i], _first(ranked.speaks_for[i]), models[names[i]][0]) for i in better)
-    why = next((_first(ranked.speaks_against[i]) for i in own), "") if mark < FITS else ""
+    why = next((choice.first(ranked.speaks_against[i]) for i in own), "") if mark < FITS else ""
+    reasons = {i: choice.first(ranked.speaks_for[i]) for i in better}
+    others = tuple(
+        Other(names[i], "" if reasons[i] == why else reasons[i], next(iter(models[names[i]]), ""))
+        for i in better
+    )
     if not why and not others:
         return None
     return Advice(choice.card, asked, others, _sentences(title, bool(own), why, others))
@@ -139,6 +183,11 @@ def _told(key: str, choice: _Choice, asked: dict[str, str], ranked: Any) -> Advi
 def _first(reasons: str) -> str:
     """The first of several reasons."""
     return ", ".join(reasons.split("; ")[:REASONS])
+
+
+def _sentence(reasons: str) -> str:
+    """The first of several reasons that are sentences."""
+    return reasons.partition(". ")[0].rstrip(".")
 
 
 def _sentences(title: str, ranked: bool, why: str, others: tuple[Other, ...]) -> str:
@@ -220,6 +269,30 @@ def _form(key: str, feed: Stream) -> str:
     if size is None or solid < FLOWING:
         return "liquid"
     return "paste" if solid < STANDING and size < FINE else "powder"
+
+
+def _of_crystallizer(
+    report: UnitReport, entering: Mapping[str, Stream], leaving: Mapping[str, Stream]
+) -> dict[str, str] | None:
+    feed, product = entering["feed"], leaving.get("product")
+    solvent, *others = [s.name for s in feed.mixture.liquids] or [""]
+    solute = next((name for name in others if crystals_of(name, solvent)), None)
+    if product is None or solute is None or not float(product.temperature) < float(feed.temperature):
+        return None
+    grown = float(product.solid_flow) - sum(float(s.solid_flow) for s in entering.values())
+    if not grown > 0.0:  # none form: as many as could, of all that is dissolved
+        grown = float(feed.liquid[feed.mixture.index("liquids", solute)])
+    known = solute if solute in session().names("solute") else f"{solute} in {solvent}"
+    kind = KINDS["Temperature"]
+    hot, cold = (float(from_si(float(s.temperature), "degC", kind)) for s in (feed, product))
+    asked = {
+        "solubility": json.dumps({"law": "library_solubility", "solute": known}, ensure_ascii=False),
+        "temperature_hot": _written(hot, "degC"),
+        "temperature_cold": _written(cold, "degC"),
+        "crystal_flow": _written(3600.0 * grown, "kg/h"),
+    }
+    added = any(report.model.card.name.startswith(word) for word in ("antisolvent", "extractive"))
+    return asked | ({"antisolvent_available": "yes"} if added else {})
 
 
 def _of_separator(

@@ -253,7 +253,7 @@ def _feed(name: str, table: FeedTable, mixture: Mixture) -> Stream:
     except GranumError as problem:
         place = f"feeds.{name}]"
         told = problem.message if place in problem.message else f"[{place} {problem.message}"
-        raise CaseError(told, **problem.details) from None
+        raise CaseError(told, **{**problem.details, "unit": name}) from None
 
 
 def _unit(name: str, table: dict[str, Any]) -> Any:

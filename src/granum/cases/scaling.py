@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import math
 from collections.abc import Mapping
 from math import ceil
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from granum.cases.alone import tables
 from granum.cases.flows import WATER, flow_of
@@ -21,6 +24,7 @@ from granum.core.parameters import Parameter
 from granum.core.units import from_si
 from granum.core.written import read_number
 from granum.reports.quantities import value_text
+from granum.streams.feeding import below
 
 # the power of the flow with which they grow: areas and contents in proportion, what a stream flows through
 # at the same velocity with its root
@@ -60,6 +64,14 @@ BY_SHAPE = frozenset(("drying.rotary_dryer",))
 """What keeps its shape and the speed of its shell: as long, in diameters, as the example."""
 FAR = (0.5, 2.0)  # times within which a line as a whole is taken to be as large as the example
 OFF = (0.9, 1.1)  # and a stream that is known
+SCREENS = frozenset(
+    f"comminution.{name}"
+    for name in ("screen", "vibrating_screen", "double_deck_screen", "triple_deck_screen")
+)
+"""What has openings, which are those of its example, wider or narrower as what enters is coarse."""
+FINEST = {"comminution.vibrating_screen": 0.8e-3}
+"""m: below it the capacity of the screen falls to nothing by its own law (Karra's factor of fineness)."""
+OPENINGS = frozenset(("aperture", "wire_diameter", "cut_size"))
 EVAPORATES = "evaporation."  # the domain of what drives out solvent
 EVAPORATED = (0.9, 2.0)  # what is left must be left
 # kg/m³, of a flow that is said as a volume
@@ -110,6 +122,57 @@ def _scale(here: float, alone: float, known: bool) -> Scale:
     return Scale(here, here / alone if alone > 0.0 and here > 0.0 else 1.0, known)
 
 
+def median_of_feed(feed: Mapping[str, Any]) -> float | None:
+    """The size that half of a feed's solid is finer than, m; None where it says none that can be read."""
+    edges = np.geomspace(1e-8, 1.0, 161)
+    try:
+        finer = below(feed.get("sizes"), edges)
+    except (GranumError, ArithmeticError, TypeError, ValueError):
+        return None
+    if finer is None or not finer[0] < 0.5 < finer[-1]:
+        return None
+    return float(np.exp(np.interp(0.5, finer, np.log(edges))))
+
+
+def median_size_of(found: Outline, origin: str, brings: Mapping[str, Any] | None) -> float | None:
+    """The median size of what a stream brings, m, as far as it is known."""
+    if brings and brings.get("median_size"):
+        return quantity(brings["median_size"], "Length", "median_size", "")
+    return median_of_feed(table_of(table_of(found.raw, "feeds"), origin))
+
+
+def meshed(model: str, made: Mapping[str, Any], median: float | None) -> dict[str, Any]:
+    """Openings of a screen around the median size of what enters it, in the proportions of its example; empty
+    for what has none.
+    """
+    if model not in SCREENS or median is None:
+        return {}
+    openings = [_meters(x) for x in _openings(made)]
+    times = max(median, FINEST.get(model, 0.0)) / math.prod(openings) ** (1.0 / len(openings))
+    return {name: _opened(name, x, times) for name, x in made.items() if x != _opened(name, x, times)}
+
+
+def _openings(made: Mapping[str, Any]) -> list[Any]:
+    """Of the decks of a screen, or of its only one."""
+    inner = [x["cut_size"] for x in made.values() if isinstance(x, Mapping) and "cut_size" in x]
+    return inner or [made["aperture"]]
+
+
+def _meters(value: Any) -> float:
+    return quantity(value, "Length", "aperture", "")
+
+
+def _opened(name: str, value: Any, times: float) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _opened(key, x, times) for key, x in value.items()}
+    if name not in OPENINGS:
+        return value
+    length = times * _meters(value)
+    unit = "mm" if length >= 1e-3 else "um"
+    number = float(from_si(length, unit, KINDS["Length"]))
+    return f"{float(f'{number:.2g}'):.10g} {unit}"
+
+
 def scaled(model: str, made: Mapping[str, Any], scale: Scale) -> dict[str, Any]:
     """Sizes in proportion, of those that a piece of equipment starts from."""
     near = EVAPORATED if model.startswith(EVAPORATES) else OFF if scale.known else FAR
@@ -140,8 +203,16 @@ def _grown(p: Parameter, value: Any, times: float) -> Any:
     return f"{float(f'{float(from_si(size, unit, p.kind)):.2g}'):.10g} {unit}"
 
 
-def size_told(model: str, made: Mapping[str, Any], scale: Scale) -> str:
+def size_told(model: str, made: Mapping[str, Any], scale: Scale, median: float | None = None) -> str:
     """For what a piece of equipment was sized, in words; empty where it keeps the size of its example."""
+    told = [_flow_told(model, made, scale)]
+    if median is not None and median > FINEST.get(model, 0.0) and meshed(model, made, median):
+        size = value_text(float(f"{median:.2g}"), Parameter("median_diameter", KINDS["Length"]))
+        told.append(_("Its openings are around the median size of what enters, {size}.").format(size=size))
+    return " ".join(filter(None, told))
+
+
+def _flow_told(model: str, made: Mapping[str, Any], scale: Scale) -> str:
     sizes = {name: x for name, x in scaled(model, made, scale).items() if x != made[name]}
     if not sizes:
         return ""

@@ -4,6 +4,8 @@ parameters.
 
 from __future__ import annotations
 
+import contextlib
+import json
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -261,7 +263,11 @@ def _whole(value: Any, parameter: Parameter, where: str) -> int:
 
 
 def _table(text: str, parameter: Parameter, where: str) -> Any:
-    """A law with its options as typed on a command line: ``{law = "power_law", exponent = 2}``."""
+    """A law with its options as typed on a command line, ``{law = "power_law", exponent = 2}``, or as JSON
+    has it.
+    """
+    with contextlib.suppress(ValueError, RecursionError):
+        return json.loads(text)
     try:
         return read_toml(f"value = {text}")["value"]
     except InputError:

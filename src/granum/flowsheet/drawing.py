@@ -13,7 +13,7 @@ import rustworkx as rx
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.units import show
-from granum.flowsheet.plan import Block, Link
+from granum.flowsheet.plan import Block, Link, returning
 from granum.flowsheet.symbols import symbol_of
 from granum.streams.names import port_label, pretty
 from granum.streams.stream import main_phase
@@ -45,7 +45,7 @@ class Loose(NamedTuple):
 
 
 def _columns(line: Drawable) -> dict[str, int]:
-    torn = {name for block in line.blocks for name in block.tears}
+    torn = returning(line.blocks, line.links)
     place = {unit: i for i, unit in enumerate(line.order)}
     graph = rx.PyDiGraph()
     graph.add_nodes_from(line.order)
@@ -332,7 +332,8 @@ def draw(
     name = escape(_("Flow diagram"))
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" role="group" '
-        f'aria-label="{name}" font-family="system-ui, sans-serif" data-width="{width:g}" '
+        f'aria-label="{name}" font-family="system-ui, sans-serif" '
+        f'data-width="{width:g}" data-across="{sheet.across}" '
         f'style="width:100%;max-width:{width:g}px"><defs>{tips}</defs>{"".join(parts)}</svg>'
     )
 

@@ -70,6 +70,25 @@ def plan(units: tuple[str, ...], links: tuple[Link, ...]) -> tuple[Block, ...]:
     return tuple(blocks)
 
 
+def returning(blocks: tuple[Block, ...], links: tuple[Link, ...]) -> set[str]:
+    """Streams that come back in a drawing, which begins each loop where something enters it: those that are
+    torn, unless the calculation begins the loop elsewhere.
+    """
+    back: set[str] = set()
+    for block in blocks:
+        inside = set(block.units)
+        entered = [
+            u for u in block.units if any(k.target_unit == u and k.source_unit not in inside for k in links)
+        ]
+        if not block.tears or not entered or block.units[0] in entered:
+            back.update(block.tears)
+            continue
+        inner = [k for k in links if k.origin and k.target and {k.source_unit, k.target_unit} <= inside]
+        orders = [_depth_first(inner, start) for start in entered]
+        back.update(min((_backward(order, inner) for order in orders), key=len))
+    return back
+
+
 def _depth_first(links: list[Link], start: str) -> list[str]:
     """Units that can be reached, each before what is found beyond it only."""
     finished: list[str] = []

@@ -463,12 +463,14 @@ class Run:
             }
         )
 
-    def report(self, path: str | Path) -> None:
-        """Write the self-contained HTML report."""
+    def report(self, path: str | Path, advice: Mapping[str, str] | None = None) -> None:
+        """Write the self-contained HTML report; ``advice`` is what is to be said of units whose checks fail,
+        by unit (the command and the page give what ``granum.cases.choosing`` finds).
+        """
         from granum.core.files import write_atomic
         from granum.reports.html import line_report
 
-        write_atomic(path, line_report(self))
+        write_atomic(path, line_report(self, advice))
 
     def tables(self, path: str | Path) -> None:
         """Write streams and results as ``.csv`` or ``.xlsx``."""

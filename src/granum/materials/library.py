@@ -256,6 +256,8 @@ def _respelled(name: str) -> str:
 
 
 def _by_formula(known: dict[str, Any], word: str) -> Any:
+    if not word:  # an entry without a formula or a French name is not called by nothing
+        return None
     return next(
         (item for item in known.values() if word.lower() == item[1].fr.lower() or word == item[1].formula),
         None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 import hashlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -207,8 +207,8 @@ def _charts(run: Any) -> list[tuple[str, str]]:
     return [(heading, charts.as_html(figure, plotly=i == 0)) for i, (heading, figure) in enumerate(drawn)]
 
 
-def line_report(run: Any) -> str:
-    """HTML of the report."""
+def line_report(run: Any, advice: Mapping[str, str] | None = None) -> str:
+    """HTML of the report; ``advice`` is what is to be said of units whose checks fail, by unit."""
     told = run.line.told
     described = told.get("description")
     units = [_unit_sheet(run, name) for name in run.sheet.order]
@@ -244,6 +244,7 @@ def line_report(run: Any) -> str:
             for c in u["checks"]
             if not c["ok"]
         ],
+        advice=dict(advice or {}),
         flags=run.flags,
         closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
         audit=numbers

@@ -21,6 +21,7 @@ from granum.core.parameters import Parameter
 from granum.core.units import format_number, in_unit_of, of_normal_gas, show
 from granum.numerics import safe_divide
 from granum.streams.mixture import Mixture
+from granum.streams.names import share_label
 from granum.streams.stream import Stream, empty
 
 Given = Any
@@ -33,6 +34,15 @@ KIND = {
     "moisture_wet_basis": "MoistureWetBasis",
 }
 LEAST_INSIDE = 0.98  # of a feed that its size classes must hold
+
+
+class _Share(Parameter):
+    """The share of a species in its phase, by the words of a feed: ``liquid.water``."""
+
+    @property
+    def label(self) -> str:
+        phase, _dot, species = self.name.partition(".")
+        return share_label(phase, species)
 
 
 def feed(
@@ -78,7 +88,8 @@ def feed(
     def shares(phase: str, given: Mapping[str, Given] | None) -> np.ndarray:
         found = np.zeros(len(getattr(mixture, phase)))
         for name, value in (given or {}).items():
-            found[mixture.index(phase, name)] = quantity(value, "MassFraction", name)
+            share = _Share(f"{PHASES[phase]}.{name}", KINDS["MassFraction"])
+            found[mixture.index(phase, name)] = float(convert(value, share, " " + where))
         if not given and len(found) == 1:
             found[0] = 1.0
         elif not given:
@@ -156,7 +167,13 @@ def feed(
     if liquids:
         stream = stream.replace(liquid=jnp.asarray(liquids * shares("liquids", liquid)))
     if solids:
-        by_class = solids * shares("solids", solid)[:, None] * size_shares(sizes, mixture, where)[None, :]
+        try:
+            fractions = size_shares(sizes, mixture, where)
+        except GranumError as problem:
+            inner = problem.details.get("name")
+            problem.details |= {"name": "sizes"} | ({} if inner is None else {"option": inner})
+            raise
+        by_class = solids * shares("solids", solid)[:, None] * fractions[None, :]
         spread = by_class.reshape(by_class.shape + (1,) * len(mixture.axes)) * np.ones(mixture.solid_shape)
         stream = stream.replace(solid=jnp.asarray(spread / int(np.prod(mixture.solid_shape[2:]))))
     if gas_flow is not None:

@@ -12,6 +12,7 @@ import tomli
 
 from granum.core.i18n import _, current_language
 from granum.core.index import entries
+from granum.materials.library import session
 
 # where the bare word says something else in another place
 PORTS = {"heavy": "heavy liquid", "light": "light liquid"}
@@ -46,6 +47,11 @@ def pretty(name: str) -> str:
     """
     unit, dot, port = name.partition(".")
     return _called(unit) + (f" · {port_label(port)}" if dot else "")
+
+
+def share_label(phase: str, species: str) -> str:
+    """``Potassium nitrate in the liquid``."""
+    return _("{species} in the {phase}").format(species=session().label(species), phase=_(phase))
 
 
 def port_label(port: str) -> str:

@@ -174,7 +174,9 @@ class Stream(eqx.Module):
         """Viscosity of the gas, Pa s."""
         law = self.mixture.gas_viscosity
         if law is None:
-            raise InputError(_("The mixture has no gas viscosity; name its carrier gas."))
+            raise InputError(
+                _("The line has no gas, or none of known viscosity: choose a carrier gas for it.")
+            )
         return law(self.gas_fractions, self.temperature)
 
     @property

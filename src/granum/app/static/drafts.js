@@ -1,5 +1,5 @@
 // Case files that were changed and not saved: one draft per file, and the text itself in the link where it is short.
-import { ask, settings, t } from './core.js';
+import { ask, html, settings, t } from './core.js';
 
 const LONGEST = 8000; // characters of a link
 const KEY = 'granum-drafts';
@@ -14,6 +14,31 @@ const all = () => {
 export const drafted = (place) => all()[place] ?? null;
 /** Places of everything that was changed and not saved. */
 export const draftedPlaces = () => Object.keys(all());
+/** The title of a case, as far as its text tells. */
+const titleIn = (text) => {
+  try {
+    return JSON.parse(text.match(/^title\s*=\s*("(?:[^"\\]|\\.)*")/m)[1]).trim();
+  } catch {
+    return '';
+  }
+};
+/** Lines that are no file of the server, kept in this browser: places with titles, which are told apart where two are equal. */
+export function ownLines() {
+  const rows = draftedPlaces()
+    .filter((place) => place.startsWith('computer:'))
+    .map((place) => ({ place, title: titleIn(drafted(place)) || place.slice(9) }));
+  const twice = (title) => rows.filter((row) => row.title === title).length > 1;
+  return rows
+    .map(({ place, title }) => ({ place, title: twice(title) ? `${title} (${place.slice(9)})` : title }))
+    .toSorted((a, b) => a.title.localeCompare(b.title, settings.language));
+}
+/** Those lines in a menu of places, with the one that is open. */
+export function OwnLines({ place }) {
+  const rows = ownLines();
+  const open = place.startsWith('computer:') && !rows.some((row) => row.place === place);
+  const all = open ? [{ place, title: place.slice(9) }, ...rows] : rows;
+  return all.length > 0 && html`<optgroup label=${t('Kept in this browser')}>${all.map((row) => html`<option value=${row.place} selected=${row.place === place}>${row.title}</option>`)}</optgroup>`;
+}
 export function keepDraft(place, text) {
   const drafts = all();
   if (text === null) delete drafts[place];

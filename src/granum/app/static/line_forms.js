@@ -1,17 +1,26 @@
 // Forms of a line: its feeds and equipment.
 import { html, t, useState, useEffect } from './core.js';
-import { Field } from './form.js';
+import { asTable, Field, holds } from './form.js';
 
 /** What an end is called; a mixer takes any number of streams: it is one place, whatever its inlet is called. */
 const placed = (ends, end) =>
   [end, end.split('.')[0]].map((one) => ends.find((known) => known.value === one)?.label).find(Boolean) || pretty(end);
 
+/** The field of a line that a refusal is about, and the parameter in it where it holds a law; null where it is about none. */
+export function fieldOf(form, problem) {
+  const { unit, name, option } = problem?.details || {};
+  const item = form?.units[unit] || form?.feeds[unit];
+  const row =
+    item?.parameters.find((p) => p.name === name) || item?.parameters.find((p) => holds(asTable(item.values[p.name]), name));
+  return row ? { unit, name: row.name, option: option || (row.name === name ? '' : name), message: problem.message } : null;
+}
+
 /** Feeds and equipment, each a closed form that opens when asked. */
-export function Forms({ form, typedIn, build, problem, message }) {
-  const open = (name) => problem?.unit === name;
-  const wrong = (name) => (open(name) ? problem.name : '');
-  return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${placed(form.ends.targets, item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} /></details>`)}
-    ${group(t('Equipment'), form.units, (name, item) => html`<details key=${'units' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.title || item.model}</span></summary><${ItemForm} table="units" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong(name)} message=${message} /></details>`)}`;
+export function Forms({ form, typedIn, build, refused }) {
+  const open = (name) => refused?.unit === name;
+  const wrong = (name) => (open(name) ? refused : null);
+  return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${placed(form.ends.targets, item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} wrong=${wrong(name)} /></details>`)}
+    ${group(t('Equipment'), form.units, (name, item) => html`<details key=${'units' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.title || item.model}</span></summary><${ItemForm} table="units" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong(name)} /></details>`)}`;
 }
 // what the line on the screen calls its units and streams, in the language of the page
 let names = {};
@@ -24,12 +33,12 @@ const group = (label, items, make) =>
   html`<h2>${label}</h2>${Object.entries(items).map(([name, item]) => make(name, item))}`;
 
 /** The form of one unit or feed. */
-export function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'form' }) {
+export function ItemForm({ table, name, item, typedIn, wrong, spot = 'form' }) {
   const [typed, setTyped] = useState({});
   useEffect(
     () =>
       setTyped((before) =>
-        Object.fromEntries(Object.entries(before).filter(([key]) => typedIn.waits(table, name, key))),
+        Object.fromEntries(Object.entries(before).filter(([key]) => typedIn.keeps(table, name, key))),
       ),
     [JSON.stringify(item.values)],
   );
@@ -45,18 +54,18 @@ export function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'f
   const [open, setOpen] = useState(false);
   if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
   const field = (p) =>
-    html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong === p.name ? message : ''} />`;
+    html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`.replaceAll(' ', '_')} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value, understood) => set(p.name, value, understood)} problem=${wrong?.name === p.name ? wrong.message : ''} option=${wrong?.name === p.name ? wrong.option : ''} />`;
   const [shown, more] = table === 'feeds' ? [item.parameters, []] : [false, true].map((away) => item.parameters.filter((p) => folded.has(p.name) === away));
   return html`<form onSubmit=${(e) => e.preventDefault()}>${shown.map(field)}
-    ${more.length > 0 && html`<details class="more" open=${open || more.some((p) => p.name === wrong)} onToggle=${(e) => setOpen(e.target.open)}><summary>${t('More ({count})', { count: more.length })}</summary>${more.map(field)}</details>`}
+    ${more.length > 0 && html`<details class="more" open=${open || more.some((p) => p.name === wrong?.name)} onToggle=${(e) => setOpen(e.target.open)}><summary>${t('More ({count})', { count: more.length })}</summary>${more.map(field)}</details>`}
     ${item.limits?.length > 0 && html`<details data-limits=${name}><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${item.limits.map((limit) => html`<tr><td>${limit.name}</td><td>${limit.allowed}</td><td class="dim">${limit.source}</td></tr>`)}</tbody></table></div></details>`}</form>`;
 }
 
 /** A feed: where it goes, in which form it is given, its flows, shares and sizes. */
-export function FeedForm({ name, item, form, typedIn, build, spot = 'form' }) {
+export function FeedForm({ name, item, form, typedIn, build, wrong, spot = 'form' }) {
   return html`<div class="ports"><${EndMenu} id=${`to-${spot}-${name}`} label=${t('goes to')} value=${item.to} ends=${form.ends.targets} none=${t('nowhere yet')} pick=${(end) => (end ? build('connect', { origin: name, target: end }) : build('disconnect', { end: name }))} />
     ${form.substances.solids.length > 0 && form.substances.liquids.length > 0 && html`<label class="end"><span>${t('given as')}</span><select id=${`given-${spot}-${name}`} value=${item.form} onChange=${(e) => build('form_of_feed', { feed: name, form: e.target.value })}><option value="phases" selected=${item.form === 'phases'}>${t('flows of solid and liquid')}</option><option value="totals" selected=${item.form === 'totals'}>${t('whole flow and share of solids')}</option></select></label>`}</div>
-    <${ItemForm} table="feeds" name=${name} item=${item} typedIn=${typedIn} spot=${spot} />
+    <${ItemForm} table="feeds" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong} spot=${spot} />
     ${item.rests?.map((rest) => html`<p class="small dim">${rest}</p>`)}`;
 }
 

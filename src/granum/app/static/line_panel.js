@@ -4,7 +4,7 @@ import { EndMenu, FeedForm, ItemForm, pretty } from './line_forms.js';
 import { UnitFigures } from './line_outcome.js';
 import { StreamPanel } from './line_streams.js';
 
-export function Panel({ chosen, choose, form, data, cases, old, typedIn, build, size }) {
+export function Panel({ chosen, choose, form, data, cases, old, typedIn, build, size, refused }) {
   const { sort, name } = chosen;
   const panel = useRef(null);
   useEffect(() => {
@@ -16,6 +16,7 @@ export function Panel({ chosen, choose, form, data, cases, old, typedIn, build, 
   const stream = sort === 'stream' && data?.streams[name];
   if (!unit && !feed && !stream) return null;
   const solved = unit && data?.units[name];
+  const wrong = refused?.unit === name ? refused : null;
   return html`<section class="card panel" ref=${panel} data-panel=${name} aria-label=${pretty(name)}><div class="row spread"><h2 class="first">${pretty(name)} <span class="dim">${unit ? unit.title || unit.model : ''}</span></h2><div class="row">
     ${
       (unit || feed || stream) &&
@@ -35,8 +36,8 @@ export function Panel({ chosen, choose, form, data, cases, old, typedIn, build, 
     <button class="button" onClick=${() => choose({ sort: '', name: '' })}>${t('Close')}</button></div></div>
     ${unit && html`<${Ports} name=${name} unit=${unit} form=${form} build=${build} />`}
     ${unit?.duty && html`<${Size} key=${'size ' + name} duty=${unit.duty} ready=${solved && !old} size=${(wanted) => size(name, wanted)} />`}
-    <div class="columns">${unit && html`<div><${ItemForm} key=${name} table="units" name=${name} item=${unit} typedIn=${typedIn} spot="panel" /></div>`}
-    ${feed && html`<div><${FeedForm} key=${name} name=${name} item=${feed} form=${form} typedIn=${typedIn} build=${build} spot="panel" /></div>`}
+    <div class="columns">${unit && html`<div><${ItemForm} key=${name} table="units" name=${name} item=${unit} typedIn=${typedIn} wrong=${wrong} spot="panel" /></div>`}
+    ${feed && html`<div><${FeedForm} key=${name} name=${name} item=${feed} form=${form} typedIn=${typedIn} build=${build} wrong=${wrong} spot="panel" /></div>`}
     ${solved && html`<div class=${old ? 'stale' : ''}><${UnitFigures} name=${name} unit=${solved} cases=${cases} /></div>`}
     ${stream && html`<div class=${old ? 'stale' : ''}><${StreamPanel} stream=${stream} /></div>`}</div></section>`;
 }

@@ -10,12 +10,25 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
   const frame = useRef(null);
   const sheet = useRef(null);
   const drag = useRef(null);
+  const fit = useRef({ width: 0, across: 0 });
   const [zoom, setZoom] = useState(1);
+  /** Fewer machines side by side where long names make them wider than the frame. */
+  const narrow = () => {
+    const drawn = sheet.current.querySelector('svg');
+    const { width, across } = fit.current;
+    const shown = Number(drawn?.dataset.across);
+    if (!width || !(shown > 1) || shown > across || Number(drawn.dataset.width) <= width) return;
+    fit.current.across = shown - 1;
+    setAcross(fit.current.across);
+  };
   const by = (factor) => setZoom((z) => Math.min(LARGEST, Math.max(SMALLEST, z * factor)));
   useEffect(() => {
     const seen = new ResizeObserver(() => {
       const width = frame.current?.clientWidth;
-      if (width) setAcross(Math.max(2, Math.min(12, Math.floor((width - 60) / COLUMN))));
+      if (!width || Math.abs(width - fit.current.width) < 20) return; // such as a scroll bar that comes or goes
+      fit.current = { width, across: Math.max(2, Math.min(12, Math.floor((width - 60) / COLUMN))) };
+      setAcross(fit.current.across);
+      narrow();
     });
     seen.observe(frame.current);
     const wheel = (e) => {
@@ -29,6 +42,7 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
   useEffect(() => {
     const drawn = sheet.current.querySelector('svg');
     if (!drawn) return;
+    narrow();
     drawn.style.maxWidth = 'none';
     drawn.style.width = `${Math.round(Number(drawn.dataset.width) * zoom)}px`;
   }, [svg, zoom]);

@@ -1,7 +1,7 @@
 // Design specifications of a line: what is sought, which result of a unit or figure of a stream it is to give, and where to look.
 import { colon, html, t, useState } from './core.js';
 import { pretty } from './line_forms.js';
-import { Quantity } from './quantity.js';
+import { Quantity, readable } from './quantity.js';
 
 const NOTHING = { vary: '', of: '', so_that: '', equals: '', lower: '', upper: '' };
 /** Figures of a feed that can be sought: a share whose phase has no other, or dry gas that is given moist, cannot. */
@@ -99,6 +99,6 @@ export function Specifications({ form, build }) {
       )
     }
     ${figure && amount('spec-equals', t('takes the value'), figure, 'equals')}
-    ${input && html`${amount('spec-lower', t('looked for from'), input.p, 'lower')}${amount('spec-upper', t('up to'), input.p, 'upper')}<p class="small dim">${t('now {value}', { value: input.now })}</p>`}
+    ${input && html`${amount('spec-lower', t('looked for from'), input.p, 'lower')}${amount('spec-upper', t('up to'), input.p, 'upper')}<p class="small dim">${t('now {value}', { value: readable(input.now, input.p) })}</p>`}
     <button class="button" disabled=${!whole || adding} onClick=${add}>${t('Add the specification')}</button></div></details>`;
 }

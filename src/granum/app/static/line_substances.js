@@ -1,6 +1,7 @@
 // What a line is made of: each phase as a list, substances of the library or described by their constants.
-import { html, t, useState } from './core.js';
+import { html, t, useState, useEffect } from './core.js';
 import { Field } from './form.js';
+import { readable } from './quantity.js';
 import { Choice, useSubstances, named } from './substance_choice.js';
 
 const PHASES = [
@@ -14,7 +15,13 @@ export function Substances({ form, build }) {
   const known = useSubstances();
   const [about, setAbout] = useState('');
   const called = (name) => form.labels[name] || named(known, name);
-  const set = (phase, names) => build('choose_substances', { ...form.substances, [phase]: names });
+  const [refused, setRefused] = useState({});
+  const choose = (phase, names, told) => build('choose_substances', { ...form.substances, [phase]: names }, told);
+  const add = async (phase, name) => {
+    setRefused({});
+    if (name && !form.substances[phase].includes(name))
+      await choose(phase, [...form.substances[phase], name], (problem) => setRefused({ phase, name, message: problem.message }));
+  };
   const all = [...new Set(PHASES.flatMap(([phase]) => form.substances[phase]))];
   return html`<details data-substances><summary>${t('Substances')} <span class="dim">${all.map(called).join(', ')}</span></summary>
     ${PHASES.map(([phase, label]) => {
@@ -22,15 +29,34 @@ export function Substances({ form, build }) {
       return html`<div class="substances" key=${phase}><p class="small dim">${t(label)}</p><div class="row">${names.map(
         (name) =>
           html`<span class="chip">${called(name)} <button aria-label=${t('Remove {name}', { name: called(name) })} onClick=${() =>
-            set(
+            choose(
               phase,
               names.filter((other) => other !== name),
             )}>×</button></span>`,
       )}
-        <${Choice} id=${'add-' + phase} label=${t('Add')} quiet rows=${offered(known, form, phase)} value="" pick=${(name) => name && !names.includes(name) && set(phase, [...names, name])} /></div></div>`;
+        <${Choice} id=${'add-' + phase} label=${t('Add')} quiet rows=${offered(known, form, phase)} value=${refused.phase === phase ? refused.name : ''} pick=${(name) => add(phase, name)} problem=${refused.phase === phase ? refused.message : ''} /></div></div>`;
     })}
     ${known && html`<${Describe} id="own" known=${known} solvent=${form.substances.liquids[0] || 'water'} describe=${(given, told) => build('describe_substance', given, told)} />`}
-    ${form.own.map((one) => html`<details key=${one.sort + one.name} data-own=${one.name} open=${about === one.name} onToggle=${(e) => e.target.open && setAbout(one.name)}><summary>${one.name} <span class="dim">${t(one.sort)}</span></summary><${Described} one=${one} build=${build} /></details>`)}</details>`;
+    ${form.own.map((one) => html`<details key=${one.sort + one.name} data-own=${one.name} open=${about === one.name} onToggle=${(e) => e.target.open && setAbout(one.name)}><summary>${one.name} <span class="dim">${t(one.sort)}</span></summary><${Described} one=${one} build=${build} /></details>`)}
+    ${form.classes && html`<${SizeClasses} classes=${form.classes} build=${build} />`}</details>`;
+}
+
+/** The size classes that all streams of the line share. */
+function SizeClasses({ classes, build }) {
+  const [typed, setTyped] = useState({});
+  const [problem, setProblem] = useState(null);
+  const values = { ...classes.values, ...typed };
+  const keep = async () => {
+    setProblem(null);
+    const given = Object.fromEntries(classes.rows.map((row) => [row.name, values[row.name] || '']));
+    if (await build('set_size_classes', given, setProblem)) setTyped({});
+  };
+  const { smallest, largest } = classes.values;
+  return html`<details data-classes><summary>${t('Size classes')} <span class="dim">${smallest ? `${readable(smallest, classes.rows[0])} … ${readable(largest, classes.rows[1])}` : ''}</span></summary>
+    ${classes.own && html`<p class="small dim">${t('The case file lists boundaries of its own; what is given here takes their place.')}</p>`}
+    <${Constants} id="classes" rows=${classes.rows} values=${values} set=${(key, text) => setTyped((before) => ({ ...before, [key]: text }))} problem=${problem} />
+    ${problem && !classes.rows.some((row) => row.name === problem.details?.name) && html`<p class="message out" role="alert">${problem.message}</p>`}
+    <div class="row"><button class="button" type="button" disabled=${!Object.keys(typed).length} onClick=${keep}>${t('Use these values')}</button></div></details>`;
 }
 
 function offered(known, form, phase) {
@@ -73,6 +99,9 @@ export function Describe({ id, known, solvent, first = 'solids', describe }) {
   const [name, setName] = useState('');
   const [values, setValues] = useState({});
   const [problem, setProblem] = useState(null);
+  useEffect(() => {
+    if (!name && !Object.keys(values).length) setPart(first); // what was begun here stays as it is
+  }, [first]);
   const parts = [
     ['solids', t('a solid')],
     ['liquids', t('a liquid')],

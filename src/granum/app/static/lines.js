@@ -16,9 +16,9 @@ import {
   Working,
 } from './core.js';
 import { order } from './cards.js';
-import { byTitle, caseAt, drafted, keepDraft, keepSteps, keptSteps, packed } from './drafts.js';
+import { byTitle, caseAt, drafted, keepDraft, keepSteps, keptSteps, OwnLines, ownLines, packed } from './drafts.js';
 import { Editor } from './line_editor.js';
-import { Forms, learn, pretty } from './line_forms.js';
+import { fieldOf, Forms, learn, pretty } from './line_forms.js';
 import { NewLine } from './line_new.js';
 import { Outcome } from './line_outcome.js';
 import { Palette } from './line_palette.js';
@@ -78,6 +78,7 @@ export function Lines({ state }) {
   const [writing, setWriting] = useState(false);
   const [setup, setSetup] = useState(!stacked.matches);
   const [removed, setRemoved] = useState(null);
+  const [forgotten, setForgotten] = useState(null); // of the lines kept in this browser
   const [sized, setSized] = useState({ name: '', text: '' }); // for what a piece was sized
   const stop = useRef(null);
   const latest = useRef('');
@@ -86,6 +87,7 @@ export function Lines({ state }) {
   const waiting = useRef(0);
   const across = useRef(5);
   const due = useRef(new Map());
+  const flying = useRef([]);
   const written = useRef(Promise.resolve());
   const files = () =>
     Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) =>
@@ -116,6 +118,10 @@ export function Lines({ state }) {
     replaceLink('lines', where.current, { case: short });
     return short;
   };
+  const forget = ({ place, title }) => {
+    setForgotten({ place, title, text: drafted(place) });
+    keepDraft(place, null);
+  };
   const settle = (next) => {
     where.current = next;
     setPlace(next);
@@ -125,9 +131,10 @@ export function Lines({ state }) {
     latest.current = next;
     setText(next);
     setReading(true);
+    const asked = across.current;
     try {
-      const found = await ask('/api/case/form', { case: next, across: across.current, place: where.current });
-      if (latest.current === next) {
+      const found = await ask('/api/case/form', { case: next, across: asked, place: where.current });
+      if (latest.current === next && across.current === asked) {
         learn(found.names);
         setForm(found);
       }
@@ -222,8 +229,10 @@ export function Lines({ state }) {
     try {
       const found = await ask('/api/case/edit', { case: latest.current, table, name, key, text: value });
       setTyping(due.current.size > 0); // somebody may type in the next field by now
+      setError(null);
       await change(found.case);
     } catch (problem) {
+      problem.details = { ...problem.details, unit: name, name: key };
       setError(problem);
     }
   };
@@ -267,10 +276,16 @@ export function Lines({ state }) {
     return open;
   };
   const complete = () => {
-    for (const { what } of drop()) next(() => edit(...what));
+    for (const { what } of drop()) {
+      const spot = what.slice(0, 3).join(' ');
+      flying.current.push(spot);
+      next(() => edit(...what)).finally(() => flying.current.splice(flying.current.indexOf(spot), 1));
+    }
     return written.current;
   };
-  const typedIn = { later, waits: (...spot) => due.current.has(spot.join(' ')) };
+  const waits = (...spot) => due.current.has(spot.join(' '));
+  // what is on its way into the case is not yet in the forms that an answer before it brings
+  const typedIn = { later, waits, keeps: (...spot) => waits(...spot) || flying.current.includes(spot.join(' ')) };
   const step = async (from, setFrom, setTo) => {
     if (!from.length) return;
     drop();
@@ -297,7 +312,7 @@ export function Lines({ state }) {
     addEventListener('keydown', key);
     return () => removeEventListener('keydown', key);
   });
-  const make = async (values) => {
+  const make = async (values, told) => {
     setError(null);
     try {
       const found = await ask('/api/case/build', { operation: 'begin', arguments: values });
@@ -306,7 +321,7 @@ export function Lines({ state }) {
       await open(begun);
       setPalette({ origin: Object.keys((await ask('/api/case/form', { case: found.case })).feeds)[0] });
     } catch (problem) {
-      setError(problem);
+      told(problem);
     }
   };
   /** What an open end brings, where the line as it stands is solved: a piece put on it is sized by that. */
@@ -315,7 +330,7 @@ export function Lines({ state }) {
     const stream = latest.current === solved && outcome?.streams[name];
     if (!stream) return {};
     const [solvent] = Object.values(stream.liquid);
-    const brings = { mass_flow: `${stream.mass_flow.value} kg/s` };
+    const brings = { mass_flow: `${stream.mass_flow.value} kg/s`, ...(stream.size?.median > 0 && { median_size: `${stream.size.median} m` }) };
     return { brings: solvent === undefined ? brings : { ...brings, solvent: `${solvent} kg/s` } };
   };
   const add = async (model) => {
@@ -380,6 +395,8 @@ export function Lines({ state }) {
   const old = Boolean(outcome && (busy || error || typing || text !== solved));
   const cases = outcome ? [...kept, { ...outcome, form }] : [];
   const missing = form?.missing || [];
+  const refused = fieldOf(form, error); // told at its field, in the panel where that is open
+  const inPanel = Boolean(refused && refused.unit === chosen.name);
   const labels = Object.fromEntries(
     (form?.ends.origins || []).map((end) => [end.stream, end.stream === end.value ? end.label : undefined]),
   );
@@ -388,7 +405,7 @@ export function Lines({ state }) {
     <a class="button" onClick=${study} href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`;
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
     <div class="row"><button class="button ${text ? '' : 'main'}" onClick=${() => setMaking(true)}>${t('New line')}</button><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
-      ${place.startsWith('computer:') && html`<option value=${place} selected>${place.slice(9)}</option>`}
+      <${OwnLines} place=${place} />
       ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${byTitle(list).map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${list.titles[f] || f}</option>`)}</optgroup>`}
       ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select></div>
     <div class="row"><button class="button main" disabled=${!text || busy} onClick=${async () => {
@@ -418,7 +435,7 @@ export function Lines({ state }) {
       }} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${() => save(place === 'workspace:' + path)}>${t('Save')}</button></div>
       ${taken && html`<div class="row caution" role="alert">▲ ${t('There is another file of this name: {path}', { path })} <button class="button" onClick=${() => save(true)}>${t('Overwrite it')}</button> <button class="button" onClick=${() => setTaken(false)}>${t('Keep it')}</button></div>`}`
     }<span class="small dim" role="status">${told}</span>
-    ${form && html`<${Substances} form=${form} build=${build} /><${Forms} form=${form} typedIn=${typedIn} build=${build} problem=${error?.details} message=${error?.message} /><${Specifications} key=${place} form=${form} build=${build} />`}
+    ${form && html`<${Substances} form=${form} build=${build} /><${Forms} form=${form} typedIn=${typedIn} build=${build} refused=${inPanel ? null : refused} /><${Specifications} key=${place} form=${form} build=${build} />`}
     <details open=${writing} onToggle=${(e) => setWriting(e.target.open)}><summary>${t('Case file')}</summary><${Editor} text=${text} write=${setText} done=${change} /></details></details></section>
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
     ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
@@ -435,13 +452,18 @@ export function Lines({ state }) {
       stop.current?.abort();
       setBusy(false);
     }} job=${() => stop.current?.signal.job} text=${t('Working… a new line takes a little while the first time.')} />
-    ${error && html`<p class="message out" role="alert">${error.message}</p>`}
+    ${error && !(refused && (inPanel || setup)) && html`<p class="message out" role="alert">${error.message}</p>`}
     ${removed?.text === text && html`<p class="row small" role="status" data-removed>${t('Deleted: {name}', { name: removed.name })} <button class="button" onClick=${undo}>${t('Undo')}</button></p>`}
     ${missing.length > 0 && html`<div class="message caution" data-missing>${missing.map((one) => html`<p>▲ ${one}</p>`)}</div>`}
     ${
       !text &&
       !making &&
       html`<h2 class="first">${t('Start a new line')}</h2><p>${t('Choose what enters, put equipment behind it, and see it solved after each step.')}</p><button class="button main" onClick=${() => setMaking(true)}>${t('New line')}</button>
+    ${ownLines().length > 0 && html`<h2>${t('Kept in this browser')}</h2><div class="columns tiles" data-own-lines>${ownLines().map((row) => html`<div class="own" key=${row.place}><button class="tile" onClick=${() => open(row.place)}>${row.title}</button><button class="button" aria-label=${t('Delete {name}', { name: row.title })} onClick=${() => forget(row)}>×</button></div>`)}</div>`}
+    ${forgotten && html`<p class="row small" role="status" data-forgotten>${t('Deleted: {name}', { name: forgotten.title })} <button class="button" onClick=${() => {
+      keepDraft(forgotten.place, forgotten.text);
+      setForgotten(null);
+    }}>${t('Undo')}</button></p>`}
     <h2>${t('Start from an example')}</h2>${byDomain(list).map(([domain, files]) => html`<h3>${domain ? t(domain) : t('Several operations')}</h3><div class="columns tiles">${files.map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}</button>`)}</div>`)}`
     }
     ${
@@ -451,7 +473,7 @@ export function Lines({ state }) {
     }
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
     ${sized.text && sized.name === chosen.name && html`<p class="row small" role="status" data-sized><span>${sized.text}</span> ${sized.undo === text && html`<button class="button" onClick=${undo}>${t('Undo')}</button>`}</p>`}
-    <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} size=${size} />`}</div>
+    <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} size=${size} refused=${refused} />`}</div>
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
     ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} prices=${form?.prices} build=${build} /></div>`}</section></main>`;
 }

@@ -16,6 +16,14 @@ const NUMBER =
 /** A unit in a menu; what has none stands as in the head of a table. */
 export const unitLabel = (unit) => unit.label || '–';
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
+/** A unit that no menu offers, as it is printed: dm² for dm^2. */
+const asPrinted = (unit) => unit.replace(/\^?((?<=[\^\p{L}])-?\d+)/gu, (_whole, power) => raised(power)).replaceAll('*', '·').replace(/\bum\b/g, 'µm');
+/** A value of a case as people read it. */
+export const readable = (text, p) => {
+  const { number, unit } = split(text);
+  const label = p.units?.find((u) => u.unit === unit)?.label ?? asPrinted(unit);
+  return `${printed(inLanguage(number))} ${label}`.trim();
+};
 
 /** Text such as "1 200,5 cm2" or "2 4 8 um" cut where the unit begins; what the number and the unit mean is for the server to say. */
 export function split(text) {
@@ -198,7 +206,7 @@ export function Quantity({ p, id, note, text = '', onChange, onEnter, problem, l
     if (number) send(joined({ number, unit: next }));
   };
   const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: unitLabel(u), sort: u.sort || '' }));
-  if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu, sort: '' });
+  if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: asPrinted(menu), sort: '' });
   const plain = p.kind === 'ratio' && !units[0]?.unit && units.every((u) => ['', 'percent'].includes(u.unit));
   if (!plain || menu) offers.current = true; // a count or an exponent has no unit to choose, unless somebody wrote %
   const shown = printed(inLanguage(given.number));

@@ -215,6 +215,8 @@ export const french = {
   'Open…': 'Ouvrir…',
   'Examples': 'Exemples',
   'Workspace': 'Espace de travail',
+  'Delete {name}': 'Supprimer {name}',
+  'Kept in this browser': 'Gardées dans ce navigateur',
   'Solve': 'Résoudre',
   'Cancel': 'Interrompre',
   'Working…': 'Calcul en cours…',
@@ -452,6 +454,9 @@ export const french = {
   'A gas with dust': 'Un gaz poussiéreux',
   'dissolved in it': 'dissous dedans',
   'New line': 'Nouvelle ligne',
+  'Size classes': 'Classes de taille',
+  'The case file lists boundaries of its own; what is given here takes their place.':
+    'Le fichier du cas donne ses propres bornes ; ce qui est donné ici en prend la place.',
   'title': 'titre',
   'What enters': 'Ce qui entre',
   'Amounts, temperature and sizes start from ordinary values; change them afterwards.':
@@ -466,6 +471,8 @@ export const french = {
   'One other limit is kept.': 'Une autre limite est respectée.',
   '{count} other limits are kept.': '{count} autres limites sont respectées.',
   'All {count} practical limits are kept.': 'Les {count} limites pratiques sont toutes respectées.',
+  'No unit of this line has a practical limit to check.':
+    'Aucune unité de cette ligne n’a de limite pratique à vérifier.',
   'found': 'trouvé',
   'Sizes and duties': 'Tailles et puissances',
   'Name': 'Nom',

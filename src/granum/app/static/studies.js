@@ -13,7 +13,7 @@ import {
   settings,
   Working,
 } from './core.js';
-import { byTitle, caseAt } from './drafts.js';
+import { byTitle, caseAt, OwnLines } from './drafts.js';
 import { Quantity, joined, settled } from './quantity.js';
 import { Outcome, lastStudied, showStudy, useJob } from './study_job.js';
 import { Past, usePast } from './study_history.js';
@@ -68,7 +68,7 @@ function Study({ state }) {
   const head = html`<h1>${t('Studies')}</h1>
     <div class="row"><label>${t('Study of')} <select value=${place} onChange=${(e) => go(e.target.value)}>
       ${place.startsWith('card:') && html`<option value=${place} selected>${found?.choices.title ?? place.slice(5)}</option>`}
-      ${place.startsWith('computer:') && html`<option value=${place} selected>${place.slice(9)}</option>`}
+      <${OwnLines} place=${place} />
       ${list?.shipped.length > 0 && html`<optgroup label=${t('Examples')}>${byTitle(list).map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${list.titles[f] || f}</option>`)}</optgroup>`}
       ${list?.own.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select></label> <${Cards} go=${go} /></div>
     ${found?.changed && html`<p class="small caution" data-changed>▲ ${t('With the changes made under Lines that are not saved.')}</p>`}`;

@@ -30,7 +30,7 @@ const begins = (row, word) =>
   word.length >= 5 && [row.label, row.value].map(plain).some((name) => name.startsWith(word) && name.length <= word.length + 2);
 
 /** One of a list, searched by typing; what is not in the list is handed on as it was typed. */
-export function Choice({ id, label, rows, value, pick, quiet }) {
+export function Choice({ id, label, rows, value, pick, quiet, problem = '' }) {
   const shown = rows.find((row) => row.value === value)?.label ?? value;
   const [typed, setTyped] = useState(null); // belongs to whoever types until the field is left
   const settle = (text) => {
@@ -40,7 +40,7 @@ export function Choice({ id, label, rows, value, pick, quiet }) {
     pick(found ? found.value : text.trim());
     setTyped(null);
   };
-  const entry = html`<input id=${id} list=${id + '-list'} type="text" autocomplete="off" aria-label=${quiet ? label : null} placeholder=${quiet ? label : ''} value=${typed ?? shown} onFocus=${(e) => e.target.select()} onInput=${(
+  const entry = html`<input id=${id} list=${id + '-list'} type="text" autocomplete="off" aria-label=${quiet ? label : null} placeholder=${quiet ? label : ''} aria-invalid=${problem ? 'true' : 'false'} aria-describedby=${problem ? id + '-told' : null} value=${typed ?? shown} onFocus=${(e) => e.target.select()} onInput=${(
     e,
   ) => {
     setTyped(e.target.value);
@@ -52,5 +52,6 @@ export function Choice({ id, label, rows, value, pick, quiet }) {
     )
       pick(whole.value);
   }} onChange=${(e) => settle(e.target.value)} onBlur=${() => setTyped(null)} /><datalist id=${id + '-list'}>${rows.map((row) => html`<option value=${row.label}></option>`)}</datalist>`;
-  return quiet ? entry : html`<label class="end" for=${id}><span>${label}</span>${entry}</label>`;
+  const told = problem && html`<div class="out small told" id=${id + '-told'} role="alert">${problem}</div>`;
+  return quiet ? html`${entry}${told}` : html`<label class="end" for=${id}><span>${label}</span>${entry}</label>${told}`;
 }
