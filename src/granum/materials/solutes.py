@@ -229,14 +229,9 @@ class SoluteSystem(eqx.Module):
         """
 
         def released(b: Branch, t: Any) -> Any:
-            self._need_heat(b)
             bound = b.solvent_ratio * self.solvent.liquid_enthalpy(t)
-            return (
-                self.solute_enthalpy(t)
-                + bound
-                + self._mixing_lost(b, t)
-                - b.hydrate_ratio * (b.enthalpy_of_formation + b.crystal.enthalpy(t))
-            )
+            crystal = b.hydrate_ratio * self.crystal_enthalpy(t, b.crystal.name)
+            return self.solute_enthalpy(t) + bound + self._mixing_lost(b, t) - crystal
 
         return self._select(as_temperature(temperature), released)
 
@@ -315,7 +310,10 @@ class SoluteSystem(eqx.Module):
         """
         b = self.branch(crystal)
         self._need_heat(b)
-        return b.enthalpy_of_formation + b.crystal.enthalpy(temperature)
+        # its heat of crystallization is from the saturated solution, which holds a heat of mixing
+        strong = self.mixing_law is not None and b.heat_of_crystallization != b.heat_dilute
+        held = self._mixing_lost(b, jnp.asarray(b.heat_temperature)) / b.hydrate_ratio if strong else 0.0
+        return b.enthalpy_of_formation + held + b.crystal.enthalpy(temperature)
 
     def _mixing_lost(self, b: Branch, T: Any) -> Any:
         """Of the saturated liquor, as a kilogram of solute and the solvent that it binds leave it, J."""
