@@ -300,8 +300,8 @@ def test_the_melt_of_caustic_soda_monohydrate_freezes_with_the_heat_of_its_liquo
 
 
 def test_a_heat_of_dilution_that_is_left_out_is_told_where_it_matters():
-    """Of magnesium chloride thickened from 30 to 35 % beside potassium chloride, as several salts are without it;
-    not of table salt.
+    """Of magnesium chloride thickened from 30 to 35 % beside potassium chloride, as several salts are without
+    it; not of table salt.
     """
     one = Evaporator("20 m2", "20 kPa", "2 bar", heat_transfer_coefficient=1500.0)
     told = {}

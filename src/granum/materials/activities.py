@@ -90,9 +90,7 @@ class ElectrolyteActivity(eqx.Module):
         slope, zero, one, two, c = jax.jvp(parameters, (T,), (jnp.ones_like(T),))[1]
         strength = 0.5 * (p * zc**2 + q * za**2)
         root = jnp.sqrt(jnp.maximum(strength * m, LEAST))
-        pairs = zero + sum(
-            b * fading(a * root) for a, b in zip(self.exponents, (one, two), strict=True)
-        )
+        pairs = zero + sum(b * fading(a * root) for a, b in zip(self.exponents, (one, two), strict=True))
         triples = m * p * zc * c / (2.0 * (zc * za) ** 0.5)
         alone = -4.0 * slope * strength / DISTANCE * jnp.log1p(DISTANCE * root)
         return -GAS_CONSTANT * T**2 * (alone + 2.0 * m * p * q * (pairs + triples))

@@ -222,8 +222,8 @@ class SoluteEntry(_Named):
     water_activity: ActivityEntry | None = None
     mixing: Literal["olsson", "activity"] | None = Field(
         default=None,
-        description="law of the enthalpy of the solutions, which holds their heat of dilution; 'activity': by "
-        "the change of 'water_activity' with temperature",
+        description="law of the enthalpy of the solutions, which holds their heat of dilution; "
+        "'activity': by the change of 'water_activity' with temperature",
     )
     mixing_from: float = Field(default=0.0, ge=0, description="coldest of 'mixing', K")
 

@@ -102,9 +102,7 @@ def boiling_of(
     return Boiling(mixture.materials.fluid(name), solubility, law, coefficients)
 
 
-def flashed(
-    feed: Stream, found: Roles, heat: Any, temperature: Any, left: Any = None
-) -> tuple[Any, Any]:
+def flashed(feed: Stream, found: Roles, heat: Any, temperature: Any, left: Any = None) -> tuple[Any, Any]:
     """Solvent that feed and heat (W) evaporate at a temperature, kg/s, and what is added to it per kg of
     crystals formed. Where mixing has a heat, that of the liquor which stays is taken from one of the same
     composition, ``left``.
