@@ -60,8 +60,8 @@ def test_a_bed_without_coils_has_none() -> None:
 
 @pytest.mark.parametrize("cells", [pytest.param(1, marks=pytest.mark.long), 3])
 def test_an_empty_feed_has_slopes(cells: int) -> None:
-    """What a line starts with: nothing leaves, and as it begins to come, a bed without fines sends all of it on
-    as product.
+    """What a line starts with: nothing leaves, and as it begins to come, a bed without fines sends all of it
+    on as product.
     """
     unit = FluidBedDryer(3.0, 800.0, SurfaceKinetics(critical_moisture=0.05), cells=cells, entrainment=True)
 

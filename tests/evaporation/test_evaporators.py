@@ -325,3 +325,13 @@ def test_a_liquor_stronger_than_the_data_at_its_temperature_is_told():
         with collect() as records:
             caustic_enthalpy_olsson(temperature, share)
         assert any(np.any(np.asarray(record.mask)) for record in records) == told
+
+
+def test_distilled_water_of_a_boiler_feed() -> None:
+    """A course's problem (opened): 83.6 m² at 2270 W/(m² K), steam of 115.6 °C (172.4 kPa), tap water of
+    15.6 °C at 1 atm whose salts double; 1.996 kg/s give 0.998 of vapor.
+    """
+    one = Evaporator("83.6 m2", "101325 Pa", "172.4 kPa", heat_transfer_coefficient=2270.0)
+    pure = mixture_of(["water"], [], ["water"], (1e-5, 1e-3))
+    made = one.operate(feed=feed(pure, liquid_flow=1.996, temperature="15.6 degC", liquid={"water": 1.0}))
+    assert float(made.outlets.vapor.gas_flow) == pytest.approx(0.998, rel=0.01)

@@ -11,6 +11,7 @@ import pytest
 from granum.core import flags
 from granum.core.constants import GAS_CONSTANT
 from granum.core.errors import GranumError
+from granum.crystallization.formulas.balances import crystallizer_balance_library
 from granum.materials.library import session
 from granum.materials.schema import read_materials
 from granum.streams.from_materials import mixture_of
@@ -48,7 +49,8 @@ def test_calcium_chloride_as_calorimetry_has_it(molality: float) -> None:
 
 def test_water_binds_to_calcium_chloride_as_conde_has_it() -> None:
     """Heat that a kilogram of water takes up as it leaves 30 and 35 % at 25 and 50 °C beyond that of
-    vaporization, by Conde's equation (2004) as it stands in two public programs (opened); 45.33 kJ/kg at 30 %, 50 °C.
+    vaporization, by Conde's equation (2004) as it stands in two public programs (opened): 45.33 kJ/kg of
+    30 % at 50 °C.
     """
     for T, share in ((ROOM, 0.3), (323.15, 0.3), (ROOM, 0.35), (323.15, 0.35)):
         zeta = share / (0.8 - share)
@@ -100,6 +102,13 @@ def test_the_heat_of_crystallization_is_counted_once() -> None:
         assert lost / (x * step) == pytest.approx(
             float(system.heat_of_crystallization(T)), rel=1e-3, abs=50.0
         )
+
+
+def test_a_card_cools_epsom_salt_as_its_chart_has_it() -> None:
+    """McCabe, Smith and Harriott: 32.5 % from 120 to 70 °F gives off 45.4 Btu per pound of magma."""
+    warm, cold = 120.0 / 1.8 + 255.372, 70.0 / 1.8 + 255.372
+    made = crystallizer_balance_library(1.0, 0.325, cold, warm, "magnesium sulfate")
+    assert float(made.heat_duty) == pytest.approx(-45.4 * 2326.0, rel=0.07)
 
 
 def test_three_hundred_solutions() -> None:

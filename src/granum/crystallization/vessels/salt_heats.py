@@ -137,7 +137,8 @@ def heat_of_dilution(
     sulfate: with these the slopes agree with calorimetry at 25 °C, within 210 J/mol for the first two, within
     an eighth for the others; no measured heats of mixtures were compared.
 
-    The energy balances of units count this heat where one salt is dissolved; of several they leave it out, the dissolved ones as in the saturated solution of each.
+    The energy balances of units count this heat where one salt is dissolved; of several they leave it out,
+    the dissolved ones as in the saturated solution of each.
     Saturated salt brine that is thinned takes up 34 kJ per kg of salt, 9 per kg of brine; with magnesium
     chloride it is 210 per kg of salt, given off.
 
