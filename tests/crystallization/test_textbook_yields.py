@@ -22,8 +22,8 @@ def test_soda_that_loses_water_as_it_cools() -> None:
 
 def test_epsom_salt_and_saltpeter_of_elementary_principles() -> None:
     """Felder and Rousseau, 6.77: 2150 kg/h of 35 % for 1000 kg/h of heptahydrate beside liquor of 23 %, 1150
-    kg/h. 6.78: half saltpeter, cooled from 80 to 25 °C; 0.300 lb of crystals by a chart that has 40 g in 100 g of
-    water, where the handbook has 38.
+    kg/h. 6.78: half saltpeter, cooled from 80 to 25 °C; 0.300 lb of crystals by a chart that has 40 g in
+    100 g of water, where the handbook has 38.
     """
     made = crystallizer_balance(2150.0, 0.35, 0.23 / 0.77, 120.37 / 246.47)
     assert float(made.crystal_flow) == pytest.approx(1000.0, rel=3e-3)

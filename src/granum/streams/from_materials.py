@@ -173,6 +173,16 @@ def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[fl
 
 def _liquid(known: Library, name: str) -> Species:
     if name not in known.names("fluid"):
+        dissolves = [n for n in known.names("solute") if n == name or n.startswith(f"{name} in ")]
+        if dissolves:
+            others = dict.fromkeys(known.label(known.solute(n).solvent.name) for n in dissolves)
+            raise InputError(
+                _(
+                    "'{name}' is known here dissolved in {solvents} only: name one of these before it among "
+                    'the liquids, or describe another solution in a table [solute."{name} in SOLVENT"].'
+                ).format(name=name, solvents=", ".join(others)),
+                name=name,
+            )
         there = (*known.names("fluid"), *known.names("solute"))
         meant = known.called(name, "solute", "fluid")
         solid = known.called(name, "solid") if meant is None else None
