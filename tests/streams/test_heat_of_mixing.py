@@ -50,7 +50,7 @@ FLASHED = {
     "magnesium chloride": ("magnesium chloride hexahydrate", 0.34, 0.41, 105, 50),
     "calcium chloride": ("calcium chloride tetrahydrate", 0.50, 0.56, 70, 35),
     "sodium sulfate": ("sodium sulfate decahydrate", 0.2, 0.31, 60, 20),
-    LYE: (CRYSTAL, 0.617, 0.622, 80, 59),
+    "potassium chloride": ("potassium chloride", 0.32, 0.345, 90, 40),
 }
 
 
