@@ -114,8 +114,9 @@ def test_what_dissolves_better_when_warm_gives_off_heat_as_it_crystallizes():
     for name in (NACL, KCL, MGCL2, "sodium sulfate"):
         law = session().solute(name)
         assert float(law.value(300.0) - law.value(290.0)) > 0.0
-        # the one curve that is steep is met in its middle
-        T, within = ("15 degC", 0.03) if name == "sodium sulfate" else (ROOM, 2e-3)
+        # the one curve that is steep is met in its middle; below 25 °C balances keep the heat of dilution
+        # that its solutions have there
+        T, within = ("15 degC", 0.05) if name == "sodium sulfate" else (ROOM, 2e-3)
         found = heat_of_solution(T, 0.1, first_salt=name)
         assert float(found.heat_of_crystallization) > 0.0
         assert float(found.heat_of_crystallization_balance) == pytest.approx(

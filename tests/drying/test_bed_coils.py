@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import jax
 import jax.numpy as jnp
 import pytest
 from tests.sharing.streams import air, wet
@@ -55,3 +56,25 @@ def test_a_bed_without_coils_has_none() -> None:
     made = FluidBedDryer(3.0, 800.0, SurfaceKinetics(critical_moisture=0.05)).operate(feed=FEED, gas=GAS)
     assert made.figures.area_coil == 0.0
     assert not [c for c in made.checks if "coils" in c.name and c.told]
+
+
+@pytest.mark.parametrize("cells", [pytest.param(1, marks=pytest.mark.long), 3])
+def test_an_empty_feed_has_slopes(cells: int) -> None:
+    """What a line starts with: nothing leaves, and as it begins to come, a bed without fines sends all of it
+    on as product.
+    """
+    unit = FluidBedDryer(3.0, 800.0, SurfaceKinetics(critical_moisture=0.05), cells=cells, entrainment=True)
+
+    def left(share):
+        made = unit.operate(feed=FEED.part(solid=share, liquid=share), gas=GAS).outlets
+        return (
+            made.product.solid_flow,
+            made.exhaust.gas_flow,
+            made.exhaust.temperature,
+            made.product.liquid_flow,
+        )
+
+    values, slopes = jax.jvp(left, (jnp.zeros(()),), (jnp.ones(()),))
+    assert values[0] == 0.0
+    assert jnp.all(jnp.isfinite(jnp.stack([*values, *slopes])))
+    assert slopes[0] == pytest.approx(float(FEED.solid_flow), rel=1e-6)

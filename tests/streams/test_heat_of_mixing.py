@@ -45,14 +45,31 @@ def test_it_closes_with_lye(key: str, seed: int) -> None:
     assert float(run.streams[port].liquid[1]) > 0.0
 
 
-def test_a_vacuum_crystallizer_says_that_it_flashes_no_lye() -> None:
-    words = {
-        "mixture": {"liquids": f"water,{LYE}", "solids": CRYSTAL},
-        "feed": {"liquid": {"water": 0.45, LYE: 0.55}},
-        "solubility": {"law": "library_solubility", "solute": LYE},
-    }
-    with pytest.raises(GranumError, match="heat of mixing"):
-        gr.alone("crystallization.vacuum_crystallizer", **words).solve()
+FLASHED = {
+    # solute: its crystal, the shares between which it is drawn, °C of the feed and of the vessel
+    "magnesium chloride": ("magnesium chloride hexahydrate", 0.34, 0.41, 105, 50),
+    "calcium chloride": ("calcium chloride tetrahydrate", 0.50, 0.56, 70, 35),
+    "sodium sulfate": ("sodium sulfate decahydrate", 0.2, 0.31, 60, 20),
+    "potassium chloride": ("potassium chloride", 0.32, 0.345, 90, 40),
+}
+
+
+@pytest.mark.parametrize("solute", FLASHED)
+def test_a_flash_takes_the_heat_of_mixing_from_the_liquor(solute: str) -> None:
+    """Without heat from outside the product and the vapor hold what the feed held."""
+    crystal, least, most, hot, cold = FLASHED[solute]
+    share = float(np.random.default_rng(4).uniform(least, most))
+    run = gr.alone(
+        "crystallization.vacuum_crystallizer",
+        mixture={"liquids": f"water,{solute}", "solids": crystal},
+        feed={"liquid": {"water": 1.0 - share, solute: share}, "temperature": f"{hot} degC"},
+        solubility={"law": "library_solubility", "solute": solute},
+        temperature=f"{cold} degC",
+    ).solve()
+    assert run.audit["mass_closure"] < 1e-9
+    figures = run.sheets["vacuum_crystallizer"].figures
+    assert float(figures.crystal_flow) > 0.0
+    assert abs(float(figures.heat_duty)) < 1e-9 * float(figures.condenser_duty)
 
 
 def test_the_law_of_lye_is_of_lye_alone() -> None:

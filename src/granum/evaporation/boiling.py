@@ -182,9 +182,10 @@ class Liquor:
         water.
         """
         m, total = self.mixture, jnp.zeros(())
+        mixed = () if m.mixing is None else m.mixing.solutes
         for i, liquid in enumerate(m.liquids[1:], start=1):
             system = solute_system(m.materials, liquid.name, (self.solvent.name,))
-            if system is None or system.mixing_law is not None or not is_measured(system):
+            if system is None or i in mixed or not is_measured(system):
                 continue
             stable = system.branches[sum(b.stable_from <= REFERENCE for b in system.branches[1:])]
             last = stable.heat_of_crystallization - stable.heat_dilute

@@ -159,6 +159,7 @@ from granum.materials.library import (
 )
 from granum.materials.mixing_heats import (
     CausticMixing as CausticMixing,
+    ElectrolyteMixing as ElectrolyteMixing,
 )
 from granum.materials.pairs import (
     GasVapor as GasVapor,

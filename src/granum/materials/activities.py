@@ -10,13 +10,18 @@ from __future__ import annotations
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 
 from granum.core import flags
+from granum.core.constants import GAS_CONSTANT
 from granum.materials.correlation import Missing
 from granum.materials.formulas.activity import (
+    DISTANCE,
     TERMS,
     WATER,
+    debye_huckel_slope,
+    fading,
     osmotic_coefficient,
     osmotic_coefficient_pitzer,
     over_temperature,
@@ -26,6 +31,7 @@ from granum.materials.formulas.activity import (
 )
 from granum.materials.formulas.caustic import STRONGEST, caustic_vapor_pressure_olsson, vapor_pressure
 
+LEAST = 1e-12  # ionic strength below which a solution is much water
 SLACK = 0.51  # K: the limits of the source are rounded
 
 
@@ -54,18 +60,40 @@ class ElectrolyteActivity(eqx.Module):
 
     def __call__(self, temperature: Any, solute_per_solvent: Any) -> Any:
         T, m = jnp.asarray(temperature), solute_per_solvent / self.molar_mass
-        key = osmotic_coefficient_pitzer.card.key
-        some = m > 0.0
-        cold, hot = self.coldest, self.hottest
-        outside = some & ((cold - SLACK > T) | (hot + SLACK < T))
-        flags.record(flags.EXTRAPOLATED, outside, T, "temperature", key, cold, hot, self.source)
-        flags.record(flags.EXTRAPOLATED, m > self.most, m, "salt_molality", key, 0.0, self.most, self.source)
-        t = jnp.clip(T, cold, hot)
+        self.heard(T, m)
+        t = jnp.clip(T, self.coldest, self.hottest)
         sets = (self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
         at = tuple(over_temperature(t, a) for a in sets)
         within = jnp.clip(m, 0.0, self.most)
         phi = osmotic_coefficient(within, t, at, self.counts, self.charges, self.exponents)
         return water_activity_osmotic(m, phi, sum(self.counts))
+
+    def heard(self, temperature: Any, molality: Any) -> None:
+        """Flag a solution outside the temperatures or beyond the molality of the source."""
+        T, m, key = jnp.asarray(temperature), molality, osmotic_coefficient_pitzer.card.key
+        cold, hot = self.coldest, self.hottest
+        outside = (m > 0.0) & ((cold - SLACK > T) | (hot + SLACK < T))
+        flags.record(flags.EXTRAPOLATED, outside, T, "temperature", key, cold, hot, self.source)
+        flags.record(flags.EXTRAPOLATED, m > self.most, m, "salt_molality", key, 0.0, self.most, self.source)
+
+    def apparent_enthalpy(self, temperature: Any, molality: Any) -> Any:
+        """Of a mole of salt over that in much water, J/mol: by the slope of the excess Gibbs energy with
+        temperature.
+        """
+        (p, q), (zc, za) = self.counts, self.charges
+        T, m = jnp.asarray(temperature, dtype=float), molality
+
+        def parameters(t: Any) -> Any:
+            sets = (self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
+            return [debye_huckel_slope.function(t), *(over_temperature(t, a) for a in sets)]
+
+        slope, zero, one, two, c = jax.jvp(parameters, (T,), (jnp.ones_like(T),))[1]
+        strength = 0.5 * (p * zc**2 + q * za**2)
+        root = jnp.sqrt(jnp.maximum(strength * m, LEAST))
+        pairs = zero + sum(b * fading(a * root) for a, b in zip(self.exponents, (one, two), strict=True))
+        triples = m * p * zc * c / (2.0 * (zc * za) ** 0.5)
+        alone = -4.0 * slope * strength / DISTANCE * jnp.log1p(DISTANCE * root)
+        return -GAS_CONSTANT * T**2 * (alone + 2.0 * m * p * q * (pairs + triples))
 
 
 class SucroseActivity(eqx.Module):

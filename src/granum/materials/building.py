@@ -36,7 +36,7 @@ from granum.materials.formulas.solutions import (
     liquid_density_laliberte,
     specific_heat_capacity_laliberte,
 )
-from granum.materials.mixing_heats import CausticMixing
+from granum.materials.mixing_heats import CausticMixing, ElectrolyteMixing
 from granum.materials.salts import Salt
 from granum.materials.schema import (
     ActivityEntry,
@@ -368,7 +368,17 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         )
         system = replace(system, branches=branches)
     system = _with_enthalpies(system)
-    return replace(system, mixing_law=CausticMixing(system.solute_heat_capacity)) if entry.mixing else system
+    return system if entry.mixing is None else replace(system, mixing_law=_mixing(system, entry))
+
+
+def _mixing(system: SoluteSystem, entry: SoluteEntry) -> CausticMixing | ElectrolyteMixing:
+    """The law of the heat of mixing of a solute that has one."""
+    law = system.activity_law
+    if entry.mixing == "olsson":
+        return CausticMixing(system.solute_heat_capacity)
+    assert isinstance(law, ElectrolyteActivity)
+    strong = _constant(system.value, REFERENCE) / system.molar_mass
+    return ElectrolyteMixing(law, max(law.coldest, entry.mixing_from), min(strong, law.most))
 
 
 def _saturated(system: SoluteSystem, branch: Branch) -> Branch:

@@ -220,15 +220,26 @@ class SoluteEntry(_Named):
     viscosity_b: float | None = Field(default=None, description="Jones and Dole's coefficient, L/mol")
     heat_capacity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
     water_activity: ActivityEntry | None = None
-    mixing: Literal["olsson"] | None = Field(
-        default=None, description="law of the enthalpy of the solutions, which holds their heat of dilution"
+    mixing: Literal["olsson", "activity"] | None = Field(
+        default=None,
+        description="law of the enthalpy of the solutions, which holds their heat of dilution; "
+        "'activity': by the change of 'water_activity' with temperature",
     )
+    mixing_from: float = Field(default=0.0, ge=0, description="coldest of 'mixing', K")
 
     @model_validator(mode="after")
     def _olsson_for_lye(self) -> SoluteEntry:
         activity = self.water_activity is not None and self.water_activity.form == "olsson"
-        if (activity or self.mixing) and (self.formula, self.solvent) != ("NaOH", "water"):
+        if (activity or self.mixing == "olsson") and (self.formula, self.solvent) != ("NaOH", "water"):
             raise ValueError("'olsson' is a law of NaOH in water: leave it out")
+        return self
+
+    @model_validator(mode="after")
+    def _mixing_by_activity(self) -> SoluteEntry:
+        if self.mixing == "activity" and (
+            self.water_activity is None or self.water_activity.form != "pitzer" or self.solvent != "water"
+        ):
+            raise ValueError("'mixing' by 'activity' needs a 'water_activity' of the form 'pitzer' in water")
         return self
 
     @model_validator(mode="after")

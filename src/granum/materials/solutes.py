@@ -228,17 +228,24 @@ class SoluteSystem(eqx.Module):
         heat of mixing, so that energy balances close.
         """
 
-        def released(b: Branch, t: Any) -> Any:
-            self._need_heat(b)
-            bound = b.solvent_ratio * self.solvent.liquid_enthalpy(t)
-            return (
-                self.solute_enthalpy(t)
-                + bound
-                + self._mixing_lost(b, t)
-                - b.hydrate_ratio * (b.enthalpy_of_formation + b.crystal.enthalpy(t))
-            )
+        T = as_temperature(temperature)
+        return self.crystal_depth(T) + self._select(T, self._mixing_lost)
 
-        return self._select(as_temperature(temperature), released)
+    def crystal_depth(self, temperature: Any) -> Any:
+        """How far the stable crystal lies below its solute and solvent counted apart, J per kg of anhydrous
+        solute.
+        """
+
+        def below(b: Branch, t: Any) -> Any:
+            bound = b.solvent_ratio * self.solvent.liquid_enthalpy(t)
+            crystal = b.hydrate_ratio * self.crystal_enthalpy(t, b.crystal.name)
+            return self.solute_enthalpy(t) + bound - crystal
+
+        return self._select(as_temperature(temperature), below)
+
+    def heat_of_mixing(self, temperature: Any, solute: Any, solvent: Any) -> Any:
+        """What these amounts hold over their parts counted apart, J; nothing without a ``mixing_law``."""
+        return 0.0 if self.mixing_law is None else self.mixing_law(temperature, solute, solvent)
 
     @at_once("crystal", solute_per_solvent=as_solute_ratio)
     def saturation_temperature(self, solute_per_solvent: Any, crystal: str | None = None) -> Any:
@@ -315,13 +322,16 @@ class SoluteSystem(eqx.Module):
         """
         b = self.branch(crystal)
         self._need_heat(b)
-        return b.enthalpy_of_formation + b.crystal.enthalpy(temperature)
+        # its heat of crystallization is from the saturated solution, which holds a heat of mixing
+        strong = self.mixing_law is not None and b.heat_of_crystallization != b.heat_dilute
+        held = self._mixing_lost(b, jnp.asarray(b.heat_temperature)) / b.hydrate_ratio if strong else 0.0
+        return b.enthalpy_of_formation + held + b.crystal.enthalpy(temperature)
 
     def _mixing_lost(self, b: Branch, T: Any) -> Any:
         """Of the saturated liquor, as a kilogram of solute and the solvent that it binds leave it, J."""
         law = self.mixing_law
         if law is None:
-            return 0.0
+            return 0.0 * T
         there, leaving = (
             (b.value(T), jnp.ones_like(T)),
             (jnp.ones_like(T), b.solvent_ratio * jnp.ones_like(T)),

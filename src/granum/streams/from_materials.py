@@ -69,6 +69,7 @@ def mixture_of(
     systems = {
         name: system for name in liquids[1:] if (system := solute_system(known, name, liquids)) is not None
     }
+    systems = _mixed(systems)
     dissolved = tuple(
         _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
     )
@@ -119,6 +120,29 @@ class Mixing:
     def __call__(self, flows: Any, temperature: Any) -> Any:
         return sum(law(temperature, flows[solute], flows[solvent]) for law, solute, solvent in self.pairs)
 
+    @property
+    def solutes(self) -> tuple[int, ...]:
+        """The places of those that have one."""
+        return tuple(solute for _law, solute, _solvent in self.pairs)
+
+    def heard(self, flows: Any, temperature: Any) -> None:
+        """Flag liquors outside the data of the laws."""
+        for law, solute, solvent in self.pairs:
+            law.heard(temperature, flows[solute], flows[solvent])
+
+
+def _mixed(systems: dict[str, SoluteSystem]) -> dict[str, SoluteSystem]:
+    """The solutes, of several salts together those without the heat of mixing that each has alone."""
+    salts = [name for name, system in systems.items() if ions_of(system.formula) is not None]
+    if len(salts) < 2:
+        return systems
+    return {
+        name: replace(system, mixing_law=None)
+        if system.mixing_law is not None and not system.mixing_law.others
+        else system
+        for name, system in systems.items()
+    }
+
 
 def solute_system(known: Library, name: str, solvents: Sequence[str]) -> SoluteSystem | None:
     """The solute of that name in the first of the solvents that the library knows it in; None where it is a
@@ -149,6 +173,16 @@ def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[fl
 
 def _liquid(known: Library, name: str) -> Species:
     if name not in known.names("fluid"):
+        dissolves = [n for n in known.names("solute") if n == name or n.startswith(f"{name} in ")]
+        if dissolves:
+            others = dict.fromkeys(known.label(known.solute(n).solvent.name) for n in dissolves)
+            raise InputError(
+                _(
+                    "'{name}' is known here dissolved in {solvents} only: name one of these before it among "
+                    'the liquids, or describe another solution in a table [solute."{name} in SOLVENT"].'
+                ).format(name=name, solvents=", ".join(others)),
+                name=name,
+            )
         there = (*known.names("fluid"), *known.names("solute"))
         meant = known.called(name, "solute", "fluid")
         solid = known.called(name, "solid") if meant is None else None

@@ -81,8 +81,9 @@ class Mixture:
     size_edges: class boundaries of the particle size, m, increasing (n + 1 of them).
     axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis
         leaves it alone.
-    mixing: function of (flows of the liquid species, temperature) → W, what they hold over their parts; None
-        where their enthalpies add up.
+    mixing: function of (flows of the liquid species, temperature) → W, what they hold over their parts, which
+        knows its ``solutes`` by place and flags with ``heard`` what lies outside its data; None where
+        enthalpies add up.
     liquid_viscosity: function of (mass fractions of the liquid species, temperature) → Pa s.
     gas_viscosity, gas_conductivity: functions of (mass fractions of the gas species, temperature) → Pa s,
         W/(m K).
@@ -98,7 +99,7 @@ class Mixture:
     gas_viscosity: Callable[[Any, Any], Any] | None = None
     gas_conductivity: Callable[[Any, Any], Any] | None = None
     materials: Library = field(default_factory=session)
-    mixing: Callable[[Any, Any], Any] | None = None
+    mixing: Any = None
     _key: Any = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -241,6 +241,9 @@ def _passed(whole: bool, unit: Unit, inlets: Mapping[str, Stream]) -> Operated:
     with flags.collect() as records:
         inside = unit.inside(**inlets)
         outlets = unit.outlets(inside, **inlets)
+        for stream in (*inlets.values(), *outlets):
+            if isinstance(stream, Stream) and stream.mixture.mixing is not None:
+                stream.mixture.mixing.heard(stream.liquid, stream.temperature)
         if whole:
             figures = unit.figures(inside, outlets, **inlets)
             measured = unit.measured(inside, outlets, figures, **inlets)

@@ -392,7 +392,8 @@ class BatchCrystallizer(CycledVessel, ChargedVessel):
     which is taken from the product (a share of the crystals is held back for the next batch, so that the line
     balances). Other salts count as in ``msmpr``. The duty is the mean one; its peak is larger. The vessel is
     as high as wide; without a ``rotation_speed`` its stirrer turns just fast enough to keep all crystals off
-    the bottom.
+    the bottom. Crystals neither agglomerate nor break here: ``crystallization.agglomerating_batch`` follows
+    those that do.
     """
 
     temperature_program: Program

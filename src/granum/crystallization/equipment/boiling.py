@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 
 from granum.core.errors import CaseError
@@ -22,6 +23,7 @@ from granum.streams.from_materials import activity_laws
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
+ROUNDS = 5  # of what a liquor holds as it thickens
 SPAN = 80.0  # K above the boiling point of the solvent within which a solution is sought that boils
 NOT_FOUND = "No temperature was found at which the saturated solution boils: check pressure and solubility."
 
@@ -100,23 +102,45 @@ def boiling_of(
     return Boiling(mixture.materials.fluid(name), solubility, law, coefficients)
 
 
-def flashed(feed: Stream, found: Roles, heat: Any, temperature: Any) -> tuple[Any, Any]:
+def flashed(feed: Stream, found: Roles, heat: Any, temperature: Any, left: Any = None) -> tuple[Any, Any]:
     """Solvent that feed and heat (W) evaporate at a temperature, kg/s, and what is added to it per kg of
-    crystals formed.
+    crystals formed. Where mixing has a heat, that of the liquor which stays is taken from one of the same
+    composition, ``left``.
     """
     mixture, T = feed.mixture, temperature
-    if mixture.mixing is not None:
-        raise CaseError(
-            _(
-                "A liquor with a heat of mixing is not flashed here: thicken it in an evaporator, cool it in "
-                "a crystallizer of a given temperature."
-            )
-        )
     liquid, solid, gas = (mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
     latent = gas[found.vapor] - liquid[found.solvent]
     x = found.solute_fraction
     released = x * liquid[found.solute] + (1.0 - x) * liquid[found.solvent] - solid[found.solid]
-    return (feed.enthalpy_flow - feed.enthalpy_at(T) + heat) / latent, released / latent
+    given = feed.enthalpy_flow - feed.enthalpy_at(T) + heat
+    if mixture.mixing is None:
+        return given / latent, released / latent
+    places = jnp.array([found.solute, found.solvent])
+
+    def mixed(pair: Any) -> Any:
+        return mixture.heat_of_mixing(left.at[places].set(pair), T)
+
+    held, (by_solute, by_solvent) = jax.value_and_grad(mixed)(left[places])
+    missing = (feed.liquid - left)[places]
+    given += mixture.heat_of_mixing(feed.liquid, T) - held - missing[0] * by_solute - missing[1] * by_solvent
+    latent -= by_solvent
+    return given / latent, (released + x * by_solute + (1.0 - x) * by_solvent) / latent
+
+
+def settled_liquor(feed: Stream, found: Roles, soluble: Any, heat: Any, temperature: Any) -> Any:
+    """Liquids left of a feed that has flashed at a temperature until its liquor is saturated, kg/s."""
+    entering, x, left = feed_of(feed, found), found.solute_fraction, feed.liquid
+    total = jnp.sum(entering.crystals)
+    solute = entering.solute + x * total
+    for _round in range(ROUNDS if feed.mixture.mixing is not None else 1):
+        first, per_crystal = flashed(feed, found, heat, temperature, left)
+        bound = 1.0 - x + per_crystal
+        solvent = entering.solvent - jnp.clip(first, 0.0, DRIEST * entering.solvent) + bound * total
+        saturated, _at = saturated_liquor(soluble, temperature, solute, solvent, x, bound)
+        crystals = jnp.maximum(crystals_at(solute, solvent, saturated, x, bound), 0.0)
+        staying = jnp.maximum(solvent - bound * crystals, 1e-3 * entering.solvent)
+        left = feed.liquid.at[found.solute].set(solute - x * crystals).at[found.solvent].set(staying)
+    return left
 
 
 def temperature_beside(
@@ -125,22 +149,14 @@ def temperature_beside(
     """Temperature (K) at which the liquor boils that a flash leaves of a feed, with the other salts as
     concentrated as they are then; None where there are none, or what they do is not known.
     """
-    mixture, x = feed.mixture, found.solute_fraction
+    mixture = feed.mixture
     if water_activity_beside(mixture, found, feed.liquid, feed.temperature) is None:
         return None
-    entering, goal = feed_of(feed, found), jnp.log(jnp.asarray(pressure, dtype=float))
-    total = jnp.sum(entering.crystals)
+    goal = jnp.log(jnp.asarray(pressure, dtype=float))
 
     def excess(T: Any, goal: Any) -> Any:
-        first, per_crystal = flashed(feed, found, heat, T)
-        bound = 1.0 - x + per_crystal
-        solute = entering.solute + x * total
-        solvent = entering.solvent - jnp.clip(first, 0.0, DRIEST * entering.solvent) + bound * total
         soluble = solubility_beside(law.solubility, mixture, found, feed.liquid, T)
-        saturated, _at = saturated_liquor(soluble, T, solute, solvent, x, bound)
-        crystals = jnp.maximum(crystals_at(solute, solvent, saturated, x, bound), 0.0)
-        left = (solute - x * crystals, jnp.maximum(solvent - bound * crystals, 1e-3 * entering.solvent))
-        liquid = feed.liquid.at[found.solute].set(left[0]).at[found.solvent].set(left[1])
+        liquid = settled_liquor(feed, found, soluble, heat, T)
         activity = water_activity_beside(mixture, found, liquid, T)
         return jnp.log(law.solvent.vapor_pressure.value(T)) + jnp.log(activity) - goal
 

@@ -42,7 +42,13 @@ from granum.crystallization.equipment.beside import (
     solubility_beside,
     water_activity_beside,
 )
-from granum.crystallization.equipment.boiling import Boiling, boiling_of, flashed, temperature_beside
+from granum.crystallization.equipment.boiling import (
+    Boiling,
+    boiling_of,
+    flashed,
+    settled_liquor,
+    temperature_beside,
+)
 from granum.crystallization.equipment.colliding import UNSOLVED_CROWD, Colliding
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import (
@@ -75,6 +81,12 @@ LIFTED = (
     "give 'elevation_linear' and 'elevation_quadratic' for this liquor."
 )
 
+THIN = (
+    "The vapor over this liquor is thinner than that of the freezing solvent, so that nothing condenses it: "
+    "hold a higher temperature."
+)
+
+ROUNDS = 2  # with the heat of mixing of the liquor as it is
 WATER = COLD["cooling_water"] + COLD_APPROACH  # K, at which cooling water condenses the vapor
 
 
@@ -199,12 +211,16 @@ class _Continuous(Stirred, Unit):
         # once more where its flags are heard: inside what is compiled they are lost
         T = self.held_at(feed.mixture, feed)
         self.solubility(T)
-        state = self._steady(feed, found, T, self._evaporation(feed, found, T))
+        state = self._settled(feed, found, T)
         reason = _UNSOLVED if self.collisions is None else UNSOLVED_CROWD
         unsolved(state.converged, type(self).card, reason=reason)
         there = T, state.solute_per_solvent, state.solvent
         heard_beside(self.solubility, feed.mixture, found, feed.liquid, there, type(self).card)
         return state, found
+
+    def _settled(self, feed: Stream, found: Roles, temperature: Any) -> SteadyState:
+        """The steady suspension with what then evaporates."""
+        return self._steady(feed, found, temperature, self._evaporation(feed, found, temperature))
 
     def outlets(self, inside: tuple[SteadyState, Roles], feed: Stream) -> Crystallized:
         state, found = inside
@@ -401,6 +417,16 @@ class VacuumCrystallizer(Colliding, _Continuous, InTime):
             return vapor.replace(pressure=jnp.minimum(over, product.pressure))
         return vapor.replace(pressure=jnp.asarray(self.pressure, dtype=float))
 
+    def _settled(self, feed: Stream, found: Roles, temperature: Any) -> SteadyState:
+        state = super()._settled(feed, found, temperature)
+        if feed.mixture.mixing is None:
+            return state
+        for _round in range(ROUNDS):  # with the heat that its own liquor holds, not the saturated one
+            left = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
+            given_off = flashed(feed, found, self.heat_duty, temperature, left)
+            state = self._steady(feed, found, temperature, given_off)
+        return state
+
     def inside(self, feed: Stream) -> tuple[Any, Roles]:
         made = super().inside(feed)
         share = others_per_solvent(made[1], feed.liquid)
@@ -418,6 +444,7 @@ class VacuumCrystallizer(Colliding, _Continuous, InTime):
         T, held = outlets.product.temperature, outlets.vapor.pressure
         lifted = held if law is None else law.solvent.vapor_pressure.value(WATER)
         pure = T if law is None or not law.elevated else law.pure(held)
+        unsolved(jnp.isfinite(pure), type(self).card, reason=THIN)
         vapor = outlets.vapor.part(gas=1.0)
         solvent = vapor.gas[found.vapor]
         liquid = vapor.replace(
@@ -446,4 +473,8 @@ class VacuumCrystallizer(Colliding, _Continuous, InTime):
     def _evaporation(self, feed: Stream, found: Roles, temperature: Any) -> tuple[Any, Any]:
         if found.vapor is None:
             raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
-        return flashed(feed, found, self.heat_duty, temperature)
+        left = None
+        if feed.mixture.mixing is not None:
+            soluble = solubility_beside(self.solubility, feed.mixture, found, feed.liquid, temperature)
+            left = settled_liquor(feed, found, soluble, self.heat_duty, temperature)
+        return flashed(feed, found, self.heat_duty, temperature, left)

@@ -109,7 +109,8 @@ class OsloCrystallizer(Unit):
     it enters must not be more than the metastable zone allows, or circulate more. Nuclei beyond those that
     the product needs, and crystals that come with the feed, are dissolved outside the bed; where too few are
     born, it wants a seed. The pressure drop is that of the bed, without pipes; the pump is counted for a bed
-    that is as dense throughout as at its bottom.
+    that is as dense throughout as at its bottom. Crystals only grow here: what joins or chips in the bed is
+    left out.
     """
 
     temperature: Temperature

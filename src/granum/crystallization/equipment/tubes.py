@@ -183,7 +183,7 @@ class PlugFlowCrystallizer(Tube):
     residence time. Backmixing spreads the stays: with ``tank_number_tube`` they are those of so many mixed
     tanks in series (half the Péclet number of axial dispersion, nearly), each parcel on its own, slower or
     faster past the same temperatures; a cascade of a few mixed vessels shares its liquor, which parcels do
-    not.
+    not. Crystals neither agglomerate nor break.
     """
 
     volume: VesselVolume
@@ -239,8 +239,8 @@ class BaffledTubeCrystallizer(Tube):
     plug flow, which holds where the oscillation is two to four times as fast as the net flow; the checks tell
     where it is not, and where it is too weak to fill the cells with vortices. The power is what the baffles
     take and becomes heat, which is small and left out. The kinetics must be those of this mixing: a baffled
-    tube strikes crystals less than a stirrer. ``tank_number_tube`` spreads the stays as in
-    ``plug_flow_crystallizer``.
+    tube strikes crystals less than a stirrer, and here they neither agglomerate nor break.
+    ``tank_number_tube`` spreads the stays as in ``plug_flow_crystallizer``.
     """
 
     diameter: Length
@@ -327,7 +327,8 @@ class SlugFlowCrystallizer(Tube):
     The temperature along the tube is given by a program of the time since the inlet. Gas and liquid meet at
     the inlet and slugs form by themselves; their length is measured, or chosen where the gas comes in pulses.
     The flow of the gas is that at the pressure of the tube, in which it takes up neither heat nor vapor. The
-    stay is that of the liquid, which the gas shortens. The kinetics must be those of this gentle mixing.
+    stay is that of the liquid, which the gas shortens. The kinetics must be those of this gentle mixing;
+    crystals neither agglomerate nor break.
     What the film at the wall passes from slug to slug is left out, or spread by ``tank_number_tube`` as in
     ``plug_flow_crystallizer``. Above an Eötvös number of about 3.4 bubbles rise in the liquid.
     """

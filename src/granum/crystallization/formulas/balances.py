@@ -373,9 +373,13 @@ def crystallizer_balance_library(
     if all(b.heat_given for b in s.branches):
         water, salt = s.solvent.liquid_enthalpy, s.solute_enthalpy
         sensible = A * (w * (salt(T) - salt(hot)) + (1.0 - w) * (water(T) - water(hot)))
+        grown = found.crystal_flow / R  # without what a hydrate binds
+        left = A * w - grown, A * (1.0 - w) - evaporation - (R - 1.0) * grown
         duty = (
             sensible
-            - found.crystal_flow / R * s.heat_of_crystallization(T)
+            + s.heat_of_mixing(T, *left)
+            - s.heat_of_mixing(hot, A * w, A * (1.0 - w))
+            - grown * s.crystal_depth(T)
             + evaporation * s.solvent.heat_of_vaporization(T)
         )
     else:

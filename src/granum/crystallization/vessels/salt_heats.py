@@ -22,7 +22,8 @@ from granum.materials.solutes import SoluteSystem
 
 # Those whose law has the slope with temperature that calorimetry gives (silvester1978), and from which
 # temperature (K): in the cold that of sodium sulfate bends, and would give its decahydrate 99 kJ/mol at 2 °C.
-# The laws of calcium chloride and potassium sulfate follow solubilities and lie far off; others are of 25 °C.
+# The laws of calcium chloride (beside other salts) and potassium sulfate follow solubilities and lie far off;
+# others are of 25 °C.
 KNOWN = {
     "sodium chloride": 273.15,
     "potassium chloride": 273.15,
@@ -136,8 +137,8 @@ def heat_of_dilution(
     sulfate: with these the slopes agree with calorimetry at 25 °C, within 210 J/mol for the first two, within
     an eighth for the others; no measured heats of mixtures were compared.
 
-    The energy balances of units leave this heat out, as the enthalpy of a stream is a sum over its species,
-    the dissolved ones as in the saturated solution.
+    The energy balances of units count this heat where one salt is dissolved; of several they leave it out,
+    the dissolved ones as in the saturated solution of each.
     Saturated salt brine that is thinned takes up 34 kJ per kg of salt, 9 per kg of brine; with magnesium
     chloride it is 210 per kg of salt, given off.
 
@@ -205,10 +206,9 @@ def heat_of_solution(
     equations with temperature. A hydrate brings its water. Sodium chloride, potassium chloride, sodium
     sulfate decahydrate and magnesium chloride hexahydrate.
 
-    Energy balances of units take one heat of crystallization at all concentrations, as the enthalpy of a
-    stream is a sum over its species: that of the saturated solution at 25 °C, and from there by the heat
-    capacities of crystal and solution. At other temperatures, and beside a second salt, it differs from the
-    one here: 60 °C gives sodium chloride 60 kJ/kg, the balances 28.
+    Energy balances of units take that of the saturated solution at 25 °C, and from there the heat of dilution
+    and the heat capacities of crystal and solution, so that they agree for one salt. Beside a second salt
+    they leave the heat of dilution out, and one heat of crystallization holds at all concentrations.
 
     >>> out = heat_of_solution("25 degC", 0.35, first_salt="potassium chloride")
     >>> round(float(out.enthalpy_of_dissolution_dilute) / 1e3, 2)

@@ -328,7 +328,9 @@ class Bed(eqx.Module):
             )
             # with the water balance so much of it, evaporation cancels where all solid has one temperature:
             # what is left is smooth
-            weights = F * shares * (abs(before.moisture - lived.moisture) + LEAST)
+            weights = (
+                jnp.where(jnp.sum(F) > 0.0, F, 1.0) * shares * (abs(before.moisture - lived.moisture) + LEAST)
+            )
             reference = m.liquid_enthalpy(jnp.sum(weights * lived.temperature) / jnp.sum(weights))
             return (
                 jnp.stack([water / (1e-3 + most), (heat - reference * water) / ENTHALPY]),

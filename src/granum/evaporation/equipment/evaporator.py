@@ -227,8 +227,8 @@ class Evaporator(_Single):
     solution with all the water, or from two given coefficients. Where the mixture has a crystal of a solute,
     the product is just saturated and fresh crystals have the given sizes: kinetics are those of the
     crystallizers; of several crystals of that solute the one forms that is stable at the boiling temperature.
-    The pressure of the liquid column is left out, and so are heats of dilution, which is told where they are
-    more than 2 % of the duty.
+    The pressure of the liquid column is left out. Heats of dilution count for the solutes that have a heat of
+    mixing in the library, alone; where others' are more than 2 % of the duty it is told.
     """
 
     def inside(self, feed: Stream) -> tuple[Liquor, Effect, Any]:

@@ -35,6 +35,7 @@ SLOPE = (
 )
 _Q, _A, _B = -17638.0, -1.0038, -0.24653
 ROOM = 298.15
+DISTANCE = 1.2  # (kg/mol)^0.5, Pitzer's for all ions
 Charge = Annotated[PositiveNumber, Within(1.0, 4.0)]
 Count = Annotated[PositiveNumber, Within(1.0, 4.0)]
 SolubilitySlope = Annotated[
@@ -63,6 +64,11 @@ def over_temperature(T: Any, a: Any) -> Any:
     return sum(coefficient * term for coefficient, term in zip(a, terms, strict=False))
 
 
+def fading(x: Any) -> Any:
+    """How a second virial coefficient of the excess energy fades with ionic strength."""
+    return 2.0 * (1.0 - (1.0 + x) * jnp.exp(-x)) / x**2
+
+
 def usual_exponents(one_charge: float, other_charge: float) -> tuple[float, float]:
     """Those with which Pitzer's coefficients fade for two charges without sign: two ions with charges of two
     or more pair.
@@ -80,7 +86,7 @@ def osmotic_coefficient(
     second = zero + one * jnp.exp(-exponents[0] * root) + two * jnp.exp(-exponents[1] * root)
     return (
         1.0
-        - zc * za * debye_huckel_slope(T) * root / (1.0 + 1.2 * root)
+        - zc * za * debye_huckel_slope(T) * root / (1.0 + DISTANCE * root)
         + m * 2.0 * nc * na / nu * second
         + m**2 * 2.0 * (nc * na) ** 1.5 / nu * c
     )

@@ -10,9 +10,7 @@ import numpy as np
 
 from granum.core import formula
 from granum.core.kinds import PositiveNumber
-from granum.materials.formulas.activity import WATER, usual_exponents
-
-B = 1.2
+from granum.materials.formulas.activity import DISTANCE, WATER, fading, usual_exponents
 
 
 class Coefficients(NamedTuple):
@@ -63,11 +61,6 @@ def _unlike(one: int, other: int, I: Any, slope: Any) -> Any:
     return one * other / (4.0 * I) * (J[0] - 0.5 * J[1] - 0.5 * J[2])
 
 
-def _fading(x: Any) -> Any:
-    """How a second virial coefficient of the excess energy fades with ionic strength."""
-    return 2.0 * (1.0 - (1.0 + x) * jnp.exp(-x)) / x**2
-
-
 def excess(m: Any, charges: tuple[tuple[int, ...], tuple[int, ...]], given: Coefficients) -> Any:
     """Excess Gibbs energy over RT for a kilogram of water, at molalities of one or two cations and one or two
     anions, their charges without sign; its derivatives are the logarithms of the activity coefficients.
@@ -82,10 +75,10 @@ def excess(m: Any, charges: tuple[tuple[int, ...], tuple[int, ...]], given: Coef
         fades = np.moveaxis(np.array(usual), -1, 0)
     cations, anions = m[: len(positive)], m[len(positive) :]
     third = given.c_phi / (2.0 * np.sqrt(np.outer(positive, negative)))
-    total = -given.slope * 4.0 * I / B * jnp.log1p(B * root)
-    second = given.beta_zero + given.beta_one * _fading(fades[0] * root)
+    total = -given.slope * 4.0 * I / DISTANCE * jnp.log1p(DISTANCE * root)
+    second = given.beta_zero + given.beta_one * fading(fades[0] * root)
     if not isinstance(given.beta_two, float):  # none at all is most often so
-        second = second + given.beta_two * _fading(fades[1] * root)
+        second = second + given.beta_two * fading(fades[1] * root)
     total = total + 2.0 * cations @ (second + charge * third) @ anions
     if len(positive) == 2:
         mixing = 2.0 * (given.theta_cations + _unlike(*positive, I, given.slope))
