@@ -320,7 +320,7 @@ def test_what_stands_before_a_loop_needs_no_other_solver(monkeypatch: pytest.Mon
     line = read_text(BEFORE)
     assert ladder.before_loops(line.sheet) == {"evaporator"}
     monkeypatch.setattr(ladder, "_exactly", exactly)
-    with pytest.raises(ConvergenceError, match="evaporator.*boils off wholly"):
+    with pytest.raises(ConvergenceError, match=r"evaporator.*boils off wholly"):
         line.solve()
 
 
