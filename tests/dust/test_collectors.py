@@ -300,3 +300,11 @@ def test_oxygen_is_given_with_its_reference() -> None:
         BagFilter(200.0, oxygen_reference=0.11).operate(feed=dusty(AIR))
     with pytest.raises(GranumError, match="burnt nothing"):
         gr.dust.emission_concentration(1e-5, 1.0, 0.2095, 0.11)
+
+
+@pytest.mark.parametrize("key", ["cyclones.gas_cyclone", "dust.bag_filter", "dust.settling_chamber"])
+def test_clean_gas_is_told_to_need_no_cleaning(key: str) -> None:
+    """As behind a dryer that keeps its fines: removal of nothing by nothing looked like a result."""
+    for flow, told in (("0 kg/h", 1), ("100 kg/h", 0)):
+        run = gr.alone(key, feed={"solid_flow": flow}).solve()
+        assert sum("No dust enters" in row["message"] for row in run.flags) == told

@@ -35,6 +35,7 @@ FITS = 0.4  # below, a machine hardly suits and is not proposed
 MOST = 3  # proposals
 REASONS = 2  # of each
 FLOWING, STANDING = 0.4, 0.6  # volume of solid in solid and liquid: below it flows, above it crumbles
+DRY = 1e-6  # liquid per solid: below it is none
 FINE, COARSE = 100e-6, 5e-3  # m: grains below stick to a paste, those above are pieces
 DRYERS, SEPARATORS = ("drying", "dryers_houdon2017"), ("filtration", "separators_svarovsky2001")
 WAYS = {
@@ -244,6 +245,7 @@ def _of_dryer(
     dry = sum(float(s.solid_flow) for s in leaving.values()) - back
     wet = float(feed.solid_flow + feed.liquid_flow) / dry - 1.0 if dry > 0.0 else 0.0
     left = float(product.liquid_flow) / float(product.solid_flow)
+    left = left if left > DRY else 0.0
     if not wet > left:
         return None
     asked = {

@@ -24,7 +24,7 @@ from granum.cases.sections import with_table
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.errors import ApplicabilityError, InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.parameters import Parameter
 from granum.flowsheet.findings import unanswered
 from granum.flowsheet.run import Line, Run
@@ -174,7 +174,7 @@ def _asked(
             _("To size '{unit}', give one of its figures, best '{best}': {results}.").format(
                 unit=thing.card.key,
                 best=own.figure or next(iter(figures)),
-                results=", ".join(f"'{n}'" for n in figures),
+                results=", ".join(quoted(n) for n in figures),
             )
         )
     figure = figures[told[0]]

@@ -18,7 +18,7 @@ from granum.core import given, registry, units
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.parameters import REQUIRED, Parameter
 from granum.core.stand_ins import StandIns
 
@@ -404,7 +404,7 @@ class Binder:
                 _("{owner} needs {names}.").format(
                     owner=self.owner,
                     names=", ".join(
-                        f"'{p.name}' "
+                        f"{quoted(p.name)} "
                         f"({p.label}{', ' + p.units[0] if p.units and p.units[0] != 'dimensionless' else ''})"
                         for p in missing
                     ),

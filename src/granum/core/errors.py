@@ -75,6 +75,11 @@ def nearest(word: str, known: Iterable[str], *, strict: bool = False) -> str | N
 
     >>> nearest("lactose", ["sucrose", "lactose monohydrate"])
     'lactose monohydrate'
+
+    A name that is all but a word of it is better than none.
+
+    >>> nearest("potato starch", ["pea", "starch"])
+    'starch'
     """
     if len(word) > _LONGEST_NAME:
         return None
@@ -84,6 +89,9 @@ def nearest(word: str, known: Iterable[str], *, strict: bool = False) -> str | N
         found = get_close_matches(word, known, n=1, cutoff=cutoff)
         if found or (whole and cutoff == 0.8):
             return found[0] if found else min(whole, key=len)
+        said = [name for name in known if len(name) >= _TELLING and _within(name, word)]
+        if said:
+            return max(said, key=len)
     return None
 
 

@@ -22,7 +22,7 @@ from granum.core.conversion import Binder, convert, is_tracer
 from granum.core.docstrings import CompletedDoc
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.parameters import Parameter, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
@@ -158,7 +158,7 @@ class Formula(Generic[P, R]):
         try:
             np.broadcast_shapes(*(shape for _name, shape in rows))
         except ValueError:
-            shown = ", ".join(f"'{name}' ({' × '.join(map(str, shape))})" for name, shape in rows)
+            shown = ", ".join(f"{quoted(name)} ({' × '.join(map(str, shape))})" for name, shape in rows)
             raise InputError(
                 _("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0]
             ) from None
@@ -168,7 +168,7 @@ class Formula(Generic[P, R]):
         for group in self._series:
             rows = [(self.card.parameters[i], np.shape(values[i])[-1]) for i in group if np.ndim(values[i])]
             if len({count for p, count in rows if p.required or count > 1}) > 1:
-                shown = ", ".join(f"'{p.name}' ({count})" for p, count in rows)
+                shown = ", ".join(f"{quoted(p.name)} ({count})" for p, count in rows)
                 raise InputError(
                     _("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0].name
                 )
@@ -189,10 +189,10 @@ class Formula(Generic[P, R]):
             single = [name for name, _shape in rows if not self.card.parameter(name).series]
             if not single or len(single) == len(rows):
                 raise
-            shown = ", ".join(f"'{name}' ({' × '.join(map(str, shape))})" for name, shape in rows)
+            shown = ", ".join(f"{quoted(name)} ({' × '.join(map(str, shape))})" for name, shape in rows)
             raise InputError(
                 _("{owner} takes one value of {names} beside its series; given: {shown}.").format(
-                    owner=self.key, names=", ".join(f"'{name}'" for name in single), shown=shown
+                    owner=self.key, names=", ".join(quoted(name) for name in single), shown=shown
                 ),
                 name=single[0],
             ) from problem

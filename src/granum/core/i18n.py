@@ -78,3 +78,8 @@ def _(text: str) -> str:
     """The text in the current language; English when no translation exists (a test forbids that)."""
     code = current_language()
     return text if code == "en" else catalog(code).get(text, text)
+
+
+def quoted(name: str) -> str:
+    """A name within a sentence, in quotes of the current language."""
+    return _("'{name}'").format(name=name)

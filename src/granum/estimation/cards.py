@@ -21,7 +21,7 @@ import scipy
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.errors import InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.parameters import REQUIRED, Parameter, default_as_json
 from granum.estimation.design import next_experiment
 from granum.estimation.least_squares import fit
@@ -117,7 +117,7 @@ class CardData:
                     "or estimate them (--estimate {first})."
                 ).format(
                     owner=thing.card.key,
-                    names=", ".join(f"'{n}'" for n in missing),
+                    names=", ".join(quoted(n) for n in missing),
                     columns=", ".join(found),
                     first=missing[0],
                 ),

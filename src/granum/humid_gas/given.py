@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from granum.core.errors import InputError
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 
 MOISTURE = ("humidity_ratio", "vapor_pressure", "dew_point_temperature")
 WET = ("wet_bulb_temperature", "adiabatic_saturation_temperature")
@@ -15,11 +15,11 @@ NAMES = ("temperature", *MOISTURE, "relative_humidity", *WET, "enthalpy", "speci
 def check_pair_of_inputs(given: dict[str, Any]) -> None:
     """One clear error when the state is not fixed by exactly two independent properties."""
     names = list(given)
-    listed = ", ".join(f"'{name}'" for name in NAMES)
+    listed = ", ".join(quoted(name) for name in NAMES)
     if len(names) != 2:
         raise InputError(
             _("A humid-gas state needs exactly two of {allowed}; given: {names}.").format(
-                allowed=listed, names=", ".join(f"'{name}'" for name in names) or _("none")
+                allowed=listed, names=", ".join(quoted(name) for name in names) or _("none")
             ),
             given=names,
         )

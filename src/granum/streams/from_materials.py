@@ -22,7 +22,7 @@ import numpy as np
 from granum.core.compiling import once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.materials.brines import SOLVENT
 from granum.materials.correlation import Correlation
 from granum.materials.double_salts import DOUBLE_SALTS, DoubleSalt, in_salts
@@ -337,7 +337,7 @@ def _below_vapor(solid: Solid, vapor: Fluid, T: Any) -> Any:
 
 def _inert(known: Library, name: str, systems: Mapping[str, SoluteSystem]) -> Species:
     if name in systems and known.called(name, "solid") is None:
-        crystals = " ".join(f"'{b.crystal.name}'," for b in systems[name].branches).rstrip(",")
+        crystals = " ".join(f"{quoted(b.crystal.name)}," for b in systems[name].branches).rstrip(",")
         raise InputError(
             _("'{name}' is dissolved; what crystallizes from it is {crystals}: give one of these.").format(
                 name=name, crystals=crystals

@@ -11,7 +11,7 @@ import numpy as np
 from granum.core import registry
 from granum.core.conversion import Binder, convert
 from granum.core.errors import ApplicabilityError, ConvergenceError, InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.parameters import Parameter
 from granum.core.results import Result
 from granum.core.stand_ins import not_varied
@@ -94,7 +94,7 @@ def _asked(
     if len(wanted) != 1:
         raise InputError(
             _("To solve for '{name}', give one result of {card} and its other inputs: {results}.").format(
-                name=name, card=card.key, results=", ".join(f"'{n}'" for n in results)
+                name=name, card=card.key, results=", ".join(quoted(n) for n in results)
             ),
             name=name,
         )

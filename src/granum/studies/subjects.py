@@ -21,7 +21,7 @@ import granum
 from granum.core import flags, registry
 from granum.core.conversion import Binder, convert
 from granum.core.errors import GranumError, InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.parameters import Parameter
 from granum.core.stand_ins import not_varied
 from granum.streams.names import pretty
@@ -413,7 +413,7 @@ class FormulaSubject(Subject):
             p for n, p in self.parameters.items() if p.required and n not in self.fixed and n not in varied
         ]
         if missing:
-            names = ", ".join(f"'{p.name}' ({p.label})" for p in missing)
+            names = ", ".join(f"{quoted(p.name)} ({p.label})" for p in missing)
             raise InputError(
                 _("{owner} needs {names}.").format(owner=self.thing.card.key, names=names),
                 missing=[p.name for p in missing],

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.errors import CaseError
 from granum.core.flags import collect, unsolved
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.kinds import (
     Area,
     Density,
@@ -198,7 +198,7 @@ class SuspensionMeltCrystallizer(Unit):
                 _(
                     "The freezing point of the mother liquor needs the molar mass of {names}: give it in the "
                     "materials, or give 'temperature_crystallizer'."
-                ).format(names=", ".join(f"'{name}'" for name in unknown))
+                ).format(names=", ".join(quoted(name) for name in unknown))
             )
         flowing = feed.liquid_flow > 0.0
         liquid = jnp.where(flowing, feed.liquid, 1.0)

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.errors import CaseError
 from granum.core.flags import unsolved
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.kinds import Distance, Law, MassFraction, PositiveNumber, Ratio
 from granum.crystallization.equipment.roles import Roles, roles
 from granum.crystallization.formulas.inclusions import LARGEST, inclusion_fraction_mean
@@ -134,7 +134,7 @@ class ImpurityUptake(Unit):
         if lacking:
             raise CaseError(
                 _("What crystals take up needs its place: add {names} to the solids of the mixture.").format(
-                    names=", ".join(f"'{name}'" for name in lacking)
+                    names=", ".join(quoted(name) for name in lacking)
                 )
             )
         return tuple(names.index(name) if name in names else None for name in wanted)

@@ -33,6 +33,7 @@ from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.materials.library import Library
 from granum.numerics.smooth import safe_divide
 from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vented
+from granum.streams.dust_carried import told_without_dust
 from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
@@ -129,6 +130,7 @@ class GasCyclone(Unit):
 
     def inside(self, feed: Stream) -> Swirl:
         m, shape, viscosity, dust = feed.mixture, self.dimensions, feed.gas_viscosity, feed.solid_density
+        told_without_dust(feed, type(self).card.key)
         volume = feed.gas_volume_flow
         flow = jnp.maximum(volume, LEAST) / self.parallel_number
         # without gas nothing is carried

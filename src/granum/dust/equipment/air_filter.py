@@ -28,6 +28,7 @@ from granum.filtration.formulas.gas_filters import penetration_fibers, pressure_
 from granum.filtration.kinds import DustResistance
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.slip import knudsen_number, mean_free_path, slip_factor_allen_raabe
+from granum.streams.dust_carried import told_without_dust
 from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
@@ -114,6 +115,7 @@ class AirFilter(Collector):
 
     def inside(self, feed: Stream) -> Fibered:
         gas = seen(feed)
+        told_without_dust(feed, type(self).card.key)
         U = jnp.maximum(gas.volume_flow / self.area, SLOWEST)
         moles = sum((feed.gas[i] / s.molar_mass for i, s in enumerate(feed.mixture.gases)), jnp.zeros(()))
         molar_mass = safe_divide(feed.gas_flow, moles, otherwise=feed.mixture.gases[0].molar_mass)

@@ -31,6 +31,7 @@ from granum.dust.formulas.precipitation import (
 )
 from granum.dust.kinds import CurrentDensity, IonDose, Voltage
 from granum.numerics.smooth import safe_divide
+from granum.streams.dust_carried import told_without_dust
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, driven, fanned
@@ -109,6 +110,7 @@ class ElectrostaticPrecipitator(Collector):
 
     def inside(self, feed: Stream) -> Charged:
         gas = seen(feed)
+        told_without_dust(feed, type(self).card.key)
         flow = jnp.maximum(gas.volume_flow, SLOWEST)
         if self.migration_velocity_effective is not None:
             speed = jnp.full_like(slip(gas, feed), self.migration_velocity_effective)

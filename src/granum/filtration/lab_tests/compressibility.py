@@ -11,7 +11,7 @@ import numpy as np
 
 from granum.core import lab_test
 from granum.core.errors import InputError
-from granum.core.i18n import _
+from granum.core.i18n import _, quoted
 from granum.core.kinds import (
     Area,
     CakeResistance,
@@ -94,7 +94,7 @@ class Compressibility(LabTest):
         ]
         if missing:
             raise InputError(
-                _("Raw readings also need {names}.").format(names=", ".join(f"'{n}'" for n in missing)),
+                _("Raw readings also need {names}.").format(names=", ".join(quoted(n) for n in missing)),
                 missing=missing,
             )
         return self._from_readings()
