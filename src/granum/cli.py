@@ -126,7 +126,7 @@ def calc(
 
 def _operate(key: str, inputs: Mapping[str, str], as_json: bool, solve: str) -> None:
     """A piece of equipment in a line of its own; sized where something is to be found."""
-    from granum.cases.alone import assumed, case_text
+    from granum.cases.alone import as_words, assumed, case_text
     from granum.cases.reading import read_text
     from granum.reports.terminal_run import print_run
 
@@ -138,7 +138,7 @@ def _operate(key: str, inputs: Mapping[str, str], as_json: bool, solve: str) -> 
         rest = assumed(key, found.words | {found.path.partition(".")[2]: outcome.found[found.path]})
         against = doubts(outcome)
     else:
-        outcome = read_text(case_text(key, inputs), name=key).solve()
+        outcome = read_text(case_text(key, as_words(key, inputs)), name=key).solve()
         rest, against = assumed(key, inputs), ""
     if as_json:
         told = {"assumed": rest} | ({"doubts": against} if against else {})

@@ -34,6 +34,7 @@ from granum.core.words import plain
 from granum.flowsheet.run import Line
 from granum.streams.feeding import PHASES
 
+NOTHING = Parameter("nothing")
 FIELDS = [name for name in FeedTable.model_fields if name != "to"]
 
 
@@ -96,7 +97,7 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
     _one_gas(key, written["unit"][name]["in"], written["feeds"], words or {})
     _drop_what_is_gone(mixture, feeds, words or {})
     widen(mixture, feeds, words or {})
-    _fill_up(feeds, words or {})
+    _fill_up(mixture, feeds, words or {})
     _drop_laws_of({name for _phase, name in before - _present(mixture)}, own, words or {})
     for port, feed in feeds.items():
         feeds[port] = {"to": f"{name}.{port}"} | feed
@@ -224,11 +225,18 @@ def _drop_what_is_gone(
                 del feed[shares]
 
 
-def _fill_up(feeds: Mapping[str, dict[str, Any]], said: Mapping[str, Any]) -> None:
-    """The shares of a phase that were not said fill up those that were, in the proportions of the example."""
+def _fill_up(
+    mixture: Mapping[str, Any], feeds: Mapping[str, dict[str, Any]], said: Mapping[str, Any]
+) -> None:
+    """The shares of a phase that were not said fill up those that were, in the proportions of the example; a
+    single substance that the example lacks takes what is left.
+    """
     for port, feed in feeds.items():
-        for shares in PHASES.values():
+        for phase, shares in PHASES.items():
             there = feed.get(shares)
+            if isinstance(there, dict) and any(f"{port}.{shares}.{name}" in said for name in there):
+                missing = [name for name in mixture.get(phase, ()) if name not in there]
+                there |= dict.fromkeys(missing, 1.0) if len(missing) == 1 else {}
             own = {name for name in there or () if f"{port}.{shares}.{name}" in said}
             if not own or f"{port}.{shares}" in said or not isinstance(there, dict) or own == set(there):
                 continue
@@ -325,9 +333,12 @@ def as_words(key: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
     >>> as_words("streams.heater", {"feed": {"liquid_flow": "2 t/h"}})
     {'feed.liquid_flow': '2 t/h'}
     """
-    parameters = {p.name for p in _equipment(key).card.parameters}
+    parameters = {p.name: p for p in _equipment(key).card.parameters}
     words: dict[str, Any] = {}
     for name, value in inputs.items():
+        if name in parameters and parameters[name].may_be_none and value in ("", None):
+            convert(value, parameters[name])  # an empty text says neither, and is refused
+        value = ("none" if parameters.get(name, NOTHING).may_be_none else "") if value is None else value
         nested = isinstance(value, Mapping) and name not in parameters
         words |= {f"{name}.{part}": v for part, v in value.items()} if nested else {name: value}
     return words

@@ -37,7 +37,9 @@ def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
         return given.not_a_number(parameter.name, where)
     shown = units.show(float(value), kind) if np.isfinite(value) else str(float(value))
     if kind.lower > -np.inf and kind.upper < np.inf:
-        allowed = _("between {low} and {high}").format(
+        at_end = (kind.open_lower and value == kind.lower) or (kind.open_upper and value == kind.upper)
+        word = _("between {low} and {high}, which are not possible themselves") if at_end else ""
+        allowed = (word or _("between {low} and {high}")).format(
             low=units.show(kind.lower, kind), high=units.show(kind.upper, kind)
         )
     elif kind.lower > -np.inf:
@@ -104,6 +106,20 @@ def convert(value: Any, parameter: Parameter, where: str = "", several: bool = F
         raise InputError(
             _("'{name}' needs a value{where}.").format(name=parameter.name, where=where), name=parameter.name
         )
+    if parameter.may_be_none and isinstance(value, str):
+        if value.strip().lower() in ("none", _("none")):
+            return None
+        if not value.strip():
+            raise InputError(
+                _("'{name}' is empty{where}: 'none' goes without it; left out it is {default}.").format(
+                    name=parameter.name,
+                    where=where,
+                    default=units.show(parameter.default, parameter.kind)
+                    if parameter.kind
+                    else parameter.default,
+                ),
+                name=parameter.name,
+            )
     if parameter.law:
         return _law(value, parameter, where)
     if parameter.choices:

@@ -56,6 +56,11 @@ class Parameter:
         return self.default is REQUIRED
 
     @property
+    def may_be_none(self) -> bool:
+        """Whether 'none' can be said of it though it has a value by default."""
+        return self.optional and self.default is not None and not self.required
+
+    @property
     def coldest(self) -> float | None:
         """The temperature below which a number has forgotten its unit; None for other kinds."""
         if self.kind is None or self.kind.name != "temperature":
@@ -107,7 +112,11 @@ class Parameter:
             or found.unit == "percent"
             or found.typical[1] <= _LARGEST_SHARE
         )
-        return usual + tuple(u for u in self.kind.units if u not in usual and (shares or u != "percent"))
+        offered = usual + tuple(u for u in self.kind.units if u not in usual and (shares or u != "percent"))
+        printed: dict[str, str] = {}
+        for u in offered:
+            printed.setdefault(units.pretty_unit(u), u)
+        return tuple(printed.values())  # none that reads as one before it
 
     def display_unit(self, values: Any) -> str:
         """The unit in which SI values of this quantity are shown; empty for what is no quantity."""

@@ -194,6 +194,7 @@ def print_card(card: Card) -> None:
             if p.required
             else ("" if p.default is None else f"{_('default')} {value_text(p.default, p)}")
         )
+        default += " · " + _("or 'none'") if p.may_be_none else ""
         table.add_row(
             p.name,
             " · ".join(

@@ -159,11 +159,15 @@ def feed(
             parts = ((share, "solids", solid), (1.0 - share, "liquids", liquid))
             total /= sum(part / per_volume(phase, given) for part, phase, given in parts if part)
         solids, liquids = total * share, total * (1.0 - share)
-    stream = empty(
-        mixture,
-        warm,
-        quantity(pressure, "Pressure", "pressure"),
-    )
+    above_vacuum = quantity(pressure, "Pressure", "pressure")
+    if not above_vacuum > 0.0:
+        raise InputError(
+            _(
+                "{where}: 'pressure' = {value} is a vacuum: give the absolute pressure, such as '1 atm'."
+            ).format(where=where, value=pressure),
+            name="pressure",
+        )
+    stream = empty(mixture, warm, above_vacuum)
     if liquids:
         stream = stream.replace(liquid=jnp.asarray(liquids * shares("liquids", liquid)))
     if solids:
