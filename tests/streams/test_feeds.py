@@ -151,3 +151,10 @@ def test_a_feed_outside_its_size_classes_says_on_which_side_and_what_to_give() -
     with pytest.raises(InputError, match=r"63\.2 % of the feed is finer .* 'smallest' or 'largest'") as told:
         feed(WET, sizes={**law, "size_modulus": "10 um"}, **water)
     assert "coarser" not in str(told.value)  # of which there are exp(−1000)
+
+
+@pytest.mark.parametrize("pressure", [0, "0 bar", "0 atm"])
+def test_nothing_flows_out_of_a_vacuum(pressure: Any) -> None:
+    with pytest.raises(InputError, match=r"\('pressure'\) = 0 .* greater than 0"):
+        feed(WET, liquid_flow="1 t/h", pressure=pressure)
+    assert float(feed(WET, liquid_flow="1 t/h", pressure="0.1 mbar").pressure) == pytest.approx(10.0)
