@@ -64,17 +64,16 @@ def wrong_sort(error: Mapping[str, Any]) -> str:
     """
     sort, place = error["type"], [str(part) for part in error["loc"]]
     amount = place[-1] == "str"  # the first of what a number with its unit may be
-    if len(place) > 1 and (amount or place[-1][:1].isupper() and "_" not in place[-1]):
+    if len(place) > 1 and (amount or place[-1][:1].isupper()):
         place = place[:-1]  # a choice of the shape, no key of the file
     limits = error.get("ctx", {})
     needed = {
-        "model": _("a table, as in { key = value }"),
-        "dict": _("a table, as in { key = value }"),
+        "model": _("a table of keys and values"),
+        "dict": _("a table of keys and values"),
         "list": _("a list, as in [1, 2]"),
         "string": _("a text in quotation marks"),
         "int": _("a whole number"),
         "float": _("a number"),
-        "bool": _("true or false"),
         "greater": _("at least {low}").format(low=limits.get("ge")),
         "less": _("at most {high}").format(high=limits.get("le")),
     }.get(sort.partition("_")[0], _("a value of another sort"))
