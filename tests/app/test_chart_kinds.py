@@ -98,6 +98,10 @@ def test_states_of_humid_gas_are_a_table(page: Page, language: str, add: str) ->
     page.all(".states tbody button")[0].click()
     page.until(lambda: len(page.all(".states tbody tr")) == 2)
     page.settle()
+    heads = [th.get_attribute("textContent").strip() for th in page.all(".states th")]
+    assert all(heads), "every column has a name for those who listen"
+    regions = [e.get_attribute("aria-label") for e in page.all("section[aria-label], [role=region]")]
+    assert len(set(regions)) == len(regions), "no two landmarks have one name"
     page.check()
 
 

@@ -139,6 +139,26 @@ def test_a_comparison_shows_what_changed_and_by_how_much(page: Page) -> None:
     page.check()
 
 
+@pytest.mark.parametrize("language", MOSTLY_FRENCH)
+def test_cases_of_intervals_are_compared_as_such_and_fit_on_a_phone(page: Page, language: str) -> None:
+    """By hand: v ~ d², so that its relative interval is twice that of d, 2 · 5/85 of 5.28 mm/s."""
+    page.open(PLACE, language, 390)
+    page.until(page.fresh)
+    keep = {"en": "Keep to compare", "fr": "Garder pour comparer"}[language]
+    page.button(keep).click()
+    page.type(DIAMETER, "170 um")
+    page.settle()
+    page.until(page.fresh)
+    page.button(keep).click()
+    page.type(DIAMETER, "85 ± 5 um")
+    page.until(lambda: len(page.all("[data-comparison] th")) == 3)
+    last = lambda: page.texts("[data-comparison] tbody tr:first-child td")[3]  # noqa: E731
+    page.until(lambda: last().replace(",", ".").startswith("5.28 ± 0.62 mm/s"))
+    cut = "const e = document.querySelector('[data-comparison]'); return e.scrollWidth - e.clientWidth"
+    assert page.browser.execute_script(cut) <= 0
+    page.check()
+
+
 def test_what_may_be_left_out_is_folded_and_what_is_refused_unfolds(page: Page) -> None:
     page.open("calculate/particles.terminal_velocity")
     assert not page.one("#field-gravity").is_displayed()

@@ -152,3 +152,14 @@ def test_the_print_stands_beside_the_answer_with_its_erratum(page: Page) -> None
     page.says("[data-step='1'] [data-output]", "2.7 %")
     page.says("[data-erratum]", "2.7 %")
     page.check()
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_an_answer_that_cannot_be_is_refused_once_at_its_field(page: Page, language: str) -> None:
+    page.open("exercises/buchner-to-filter", language)
+    page.type("[data-step] input", "7").send_keys(Keys.ENTER)
+    page.until(lambda: page.all("[data-step] [data-verdict=unclear]"))
+    page.settle()
+    told = {"en": "must be between 0 and 1", "fr": "doit être compris entre 0 et 1"}[language]
+    page.until(lambda: page.text("[data-step] .quantity .out").count(told) == 1)
+    assert page.text("[data-step]").count(told) == 1

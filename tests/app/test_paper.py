@@ -225,6 +225,32 @@ def test_a_unit_stands_beside_its_number_on_paper(page: Page) -> None:
     assert cut <= 1.0
 
 
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_paper_has_no_empty_field_and_no_menu(page: Page, language: str) -> None:
+    for place in (STOKES, "calculate/filtration.rotary_vacuum_drum"):
+        page.open(place, language)
+        page.one("[data-output], .answers td")
+        page.settle()
+        seen = on_paper(
+            page,
+            """
+            const visible = (e) => e.getBoundingClientRect().height > 0;
+            const shown = (s) => [...document.querySelectorAll(s)].filter(visible);
+            return {
+              blank: shown('.field :is(input, select)').filter((e) => !e.value && !e.placeholder).length,
+              fields: shown('.field').length,
+              menus: shown('.figure .units').length,
+              limits: shown('.limits tr').map((e) => new Set([...e.cells].map((c) => c.offsetTop)).size),
+            };
+            """,
+        )
+        assert seen["blank"] == 0
+        assert seen["menus"] == 0
+        assert seen["fields"] > 3
+        assert set(seen["limits"]) <= {1}, "a limit stands beside its name"
+    assert not page.all(".field.blank"), "afterwards every field is there again"
+
+
 def test_the_address_of_a_line_on_paper_is_one_that_can_be_typed(page: Page) -> None:
     page.open("lines", "fr")
     page.button("Nouvelle ligne").click()

@@ -49,6 +49,16 @@ def test_a_name_is_refused_with_the_words_of_its_field(
         assert not set("[]`") & set(error["message"]), "no words of case files"
 
 
+def test_every_field_that_is_refused_is_told() -> None:
+    for code, words in (("en", "is not in the library"), ("fr", "n’est pas dans la bibliothèque")):
+        with language(code), pytest.raises(InputError) as refused:
+            built("begin", "", {**LINE, "enters": "moist_solid", "liquid": "xx", "solid": "yy", "gas": "zz"})
+        error = told(refused.value.as_json())
+        assert error["name"] == "solid"
+        assert sorted(error["beside"]) == ["gas", "liquid"]
+        assert all(words in message for message in error["beside"].values())
+
+
 def test_a_solute_that_does_not_crystallize_from_a_liquid_is_refused_at_its_field() -> None:
     with pytest.raises(InputError, match="does not crystallize from 'ethanol'") as refused:
         built("begin", "", {**LINE, "enters": "solution", "solute": "sodium chloride", "liquid": "ethanol"})
@@ -150,7 +160,9 @@ def test_a_line_is_refused_and_marked_on_the_page(page: Page) -> None:
     page.type("#new-liquid", "0")
     page.browser.execute_script("document.querySelector('[data-describe]').open = true")
     page.type("#new-own-name", "boue")
+    page.type("#new-solid", "yy")
     page.one("#new-solid").send_keys(Keys.ENTER)
+    page.says("#new-solid-told", "« yy » n’est pas dans la bibliothèque")
     page.says("#new-liquid-told", "« 0 » n’est pas dans la bibliothèque")
     assert page.one("#new-liquid").get_attribute("aria-invalid") == "true"
     assert page.one("#new-liquid").get_attribute("value") == "0"

@@ -69,6 +69,7 @@ isotherme de sorption: drying.isotherm · eau liée: drying.kinds_of_water
 clairçage: filtration.washing_curve · clarifloculation: settling.jar_test · tartre: evaporation.evaporator
 coulabilité: conveying.flow_function · triple effet: evaporation.multiple_effect_evaporator
 débourbage: centrifuges.discharge_interval · lyophilisation: drying.freeze_dryer
+égouttage: comminution.screen · crible d'égouttage: comminution.screen
 taux d'humidité: humid_gas.relative_humidity · hygrométrie: humid_gas.relative_humidity
 """
 ENGLISH = """
@@ -79,7 +80,7 @@ flocculation: settling.jar_test · ESP: dust.electrostatic_precipitator
 dead-end filtration: filtration.leaf_test
 drag coefficient: particles.drag_coefficient_haider_levenspiel · work index: comminution.work_index
 Ergun: porous.pressure_gradient_ergun · thickener: settling.thickener
-dew point: humid_gas.dew_point_temperature
+dew point: humid_gas.dew_point_temperature · dewatering screen: comminution.screen
 filter press: filtration.plate_and_frame_press · hopper: conveying.mass_flow_beverloo
 Reynolds: particles.reynolds_number · MSMPR: crystallization.msmpr · bag filter: dust.bag_filter
 baghouse: dust.bag_filter · RRSB: particles.rosin_rammler · u_t: particles.terminal_velocity

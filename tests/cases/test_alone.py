@@ -12,10 +12,12 @@ import pytest
 from tests.sharing.commands import granum
 
 import granum as gr
+from granum.app.alone_forms import alone_form
 from granum.cases import read_text
 from granum.cases.alone import alone, assumed, case_text, tables
 from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError
+from granum.core.i18n import language
 from granum.core.index import entries
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
@@ -43,6 +45,15 @@ def test_words_change_the_unit_its_feed_and_its_substances() -> None:
     assert found["feeds"]["feed"]["solid_flow"] == "400 kg/h"
     assert found["mixture"]["solids"] == ["quartz"]
     assert "wash" not in found["feeds"]
+
+
+def test_substances_may_be_written_in_french() -> None:
+    said = {"mixture.liquids": "eau, chlorure de sodium", "mixture.solids": "calcite"}
+    assert tables(DRUM, said)["mixture"]["liquids"] == ["water", "sodium chloride"]
+    with language("fr"):
+        form = alone_form(DRUM, {})
+    assert form["values"]["mixture.liquids"] == "eau, chlorure de sodium"
+    assert form["values"]["mixture.solids"] == "calcite"
 
 
 def test_a_flow_said_another_way_replaces_the_first() -> None:

@@ -11,8 +11,9 @@ import numpy as np
 import openpyxl
 import pytest
 
-from granum.cases.reading import parsed
+from granum.cases.reading import parsed, read_text
 from granum.core.errors import CaseError, InputError
+from granum.core.i18n import language
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.estimation import tables
@@ -93,3 +94,29 @@ def test_cells_are_read_as_people_write_numbers() -> None:
     found = tables.read_table(io.StringIO("time [s];volume [L]\n1\u202f200,5;\u22120\n2e3;1,5\n"), COLUMNS)
     np.testing.assert_allclose(found["time"], [1200.5, 2000.0])
     np.testing.assert_allclose(found["volume"], [0.0, 1.5e-3])
+
+
+@pytest.mark.parametrize(
+    ("mixture", "english", "french"),
+    [
+        ('sizes = "zz"', "'mixture.sizes' = zz is not possible: it must be a table", "doit être une table"),
+        ("sizes = { classes = 0 }", "it must be at least 1", "au moins égal à 1"),
+        ("sizes = { classes = 2.5 }", "it must be a whole number", "un nombre entier"),
+        ("sizes = { smallest = [1] }", "'mixture.sizes.smallest' = [1]", "un nombre avec son unité"),
+        ('gases = "air"', "it must be a list", "une liste"),
+        ("gases = [1]", "it must be a text", "un texte"),
+        ("axes = { a = { boundaries = ['x'] } }", "it must be a number", "un nombre"),
+    ],
+)
+def test_a_value_of_the_wrong_sort_is_told_in_words(mixture: str, english: str, french: str) -> None:
+    case = f'title = "A"\n[mixture]\nliquids = ["water"]\n{mixture}\n'
+    for code, words in (("en", english), ("fr", french)):
+        with language(code), pytest.raises(CaseError) as refused:
+            read_text(case)
+        assert words in refused.value.message
+        assert "Input should" not in refused.value.message
+
+
+def test_so_is_that_of_a_substance_of_the_case() -> None:
+    with pytest.raises(InputError, match="it must be a table"):
+        read_text('title = "A"\n[mixture]\nliquids = ["water"]\nsolids = ["mud"]\n[solid]\nmud = 3\n')

@@ -165,3 +165,25 @@ def test_a_fluid_outside_its_data_is_told_by_tests_and_studies_too(words, beyond
     subject = FormulaSubject.of("particles.terminal_velocity", {"particle_density": 2630.0, "fluid": words})
     run = subject.traced(("particle_diameter",), ("terminal_velocity",))
     assert int(run(subject.numbers(), jnp.asarray([5e-5]))[1]) == (EXTRAPOLATED if beyond else FINE)
+
+
+@pytest.mark.parametrize(
+    ("short", "whole"),
+    [
+        ("water 60 °C", "water at 60 °C"),
+        ("eau, 60 degC", "water at 60 °C"),
+        ("air 100 °C, 2 bar", "air at 100 °C, 2 bar"),
+        ("sodium chloride 10 % 20 °C", "10 % sodium chloride at 20 °C"),
+        ("water 300 K", "water at 300 K"),
+    ],
+)
+def test_a_temperature_needs_no_word_before_it(short, whole):
+    found, meant = StatedFluid.read(short), StatedFluid.read(whole)
+    assert found.label == meant.label
+    assert found.density() == meant.density()
+
+
+@pytest.mark.parametrize("words", ["water", "water 60", "water 1 kg/K", "60 °C"])
+def test_what_has_no_temperature_is_refused(words):
+    with pytest.raises(InputError, match=f"'fluid' = '{words}' is not understood"):
+        StatedFluid.read(words)

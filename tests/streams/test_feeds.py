@@ -162,3 +162,10 @@ def test_water_of_a_stream_weighs_what_tables_say(temperature: float, density: f
     water = mixture_of(["water"], [], [], [1e-6, 1e-3])
     stream = feed(water, temperature=f"{temperature} degC", liquid_flow="1 kg/s")
     assert float(stream.liquid_density) == pytest.approx(density, abs=0.15)
+
+
+@pytest.mark.parametrize("pressure", [0, "0 bar", "0 atm"])
+def test_nothing_flows_out_of_a_vacuum(pressure: Any) -> None:
+    with pytest.raises(InputError, match=r"\('pressure'\) = 0 .* greater than 0"):
+        feed(WET, liquid_flow="1 t/h", pressure=pressure)
+    assert float(feed(WET, liquid_flow="1 t/h", pressure="0.1 mbar").pressure) == pytest.approx(10.0)

@@ -132,7 +132,8 @@ def _substances(mixture: Mapping[str, Any]) -> tuple[list[dict[str, Any]], dict[
         if phase == "solids" and len(listed) == 1:
             row["options"] = materials(session().names("solid"))
         rows.append(row)
-        values[f"mixture.{phase}"] = ", ".join(listed)
+        said = listed if row["options"] else map(session().label, listed)
+        values[f"mixture.{phase}"] = ", ".join(said)
     return rows, values
 
 

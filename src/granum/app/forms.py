@@ -146,10 +146,19 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
         value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
     unit = p.display_unit(array)
+    if p.kind.unit == "s" and not _brief(array, unit, p.kind):  # 1000 s, which is 16.6667 min
+        unit = next((u for u in p.units if _brief(array, u, p.kind)), unit)
     shown = (typed(float(x)) for x in np.atleast_1d(from_si(array, unit, p.kind)))
     return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
 
 
+def _brief(values: np.ndarray, unit: str, kind: Kind) -> bool:
+    """Whether values are ordinary numbers of four figures at most in a unit."""
+    found = np.abs(np.atleast_1d(from_si(values, unit, kind)))
+    return all(x == 0.0 or (0.1 <= x < LONGEST_TYPED and math.isclose(float(f"{x:.4g}"), x)) for x in found)
+
+
+LONGEST_TYPED = 1e4  # from here on an example is not written out in another unit
 LONG = 1e7  # from here on a number of few figures is written as a power of ten
 
 
@@ -361,7 +370,8 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
     """
     if p.name in given:
         return entry(p, given[p.name])
-    if given or not p.required or p.kind is None or p.series:
+    asked = p.required and not given
+    if not (asked or _default_beyond(p)) or p.kind is None or p.series:
         return None
     low, high = p.ordinary()
     middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
@@ -370,17 +380,29 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
     return {"number": typed(float(f"{number:.2g}")), "unit": "" if unit == "dimensionless" else unit}
 
 
-def docstring_values(card: Card) -> dict[str, Any]:
+def _default_beyond(p: Parameter) -> bool:
+    """Whether what stands where nothing is typed lies outside the range of the source."""
+    return (
+        isinstance(p.default, float) and p.fitted is not None and not p.fitted[0] <= p.default <= p.fitted[1]
+    )
+
+
+def docstring_values(card: Card, called_with: bool = False) -> dict[str, Any]:
     """Arguments of the first call in the docstring's examples, as far as they can be read; empty when one can
-    not.
+    not. Of a law its parameters, and what it is ``called_with``.
     """
     known: dict[str, Any] = {}
     called, declared = {card.name}, card.parameters
-    if card.sort == "law":  # by its class, and without what it is called with afterwards
-        called, declared = {entries()[card.key].attribute}, registry.find(card.key).card.parameters
+    inputs: tuple[Parameter, ...] = ()
+    if card.sort == "law":  # by its class; what it is called with afterwards beside it
+        own = registry.find(card.key).card
+        called, declared, inputs = {entries()[card.key].attribute}, own.parameters, own.arguments
     for item in doctest.DocTestParser().get_examples(card.doc):
         tree = ast.parse(item.source)
+        outer: list[ast.expr] = []
         for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Call):  # FickSimplified(…)(1000.0)
+                outer = node.args
             if (
                 isinstance(node, ast.Call)
                 and isinstance(node.func, ast.Name)
@@ -393,6 +415,8 @@ def docstring_values(card: Card) -> dict[str, Any]:
                     for word in node.keywords:
                         value = _read(word.value, known)
                         found |= {word.arg: value} if word.arg else value
+                    if called_with and len(outer) == len(inputs):
+                        found |= {p.name: _read(arg, known) for p, arg in zip(inputs, outer, strict=True)}
                     return found
                 except ValueError:
                     break
@@ -412,7 +436,9 @@ def opening_values(card: Card) -> dict[str, Any]:
     """What a form opens with: the docstring's example, unless a number in it is none that anybody meets; on
     Earth.
     """
-    values = {name: value for name, value in docstring_values(card).items() if name != "gravity"}
+    values = {
+        name: value for name, value in docstring_values(card, called_with=True).items() if name != "gravity"
+    }
     return {} if any(_extraordinary(p, values.get(p.name)) for p in card.parameters) else values
 
 
@@ -573,11 +599,25 @@ def bounds_text(p: Parameter) -> str:
         return f"{'>' if kind.open_lower else '≥'} {_edge(kind.lower, p)}"
     if kind.lower == -math.inf:
         return f"{'<' if kind.open_upper else '≤'} {_edge(kind.upper, p)}"
-    return f"{_edge(kind.lower, p)} … {_edge(kind.upper, p)}"
+    return range_text(p, (kind.lower, kind.upper))
 
 
 def range_text(p: Parameter, limits: tuple[float, float]) -> str:
-    """A range in one unit: ``10 … 800 µm``."""
+    """A range in the unit of its larger end, ``10 … 800 µm``, where the other end is no row of zeros."""
+    ends = ["−∞" if x < 0 else "∞" for x in limits]
     if p.kind is None:
-        return " … ".join("∞" if abs(x) == math.inf else format_number(x) for x in limits)
-    return " … ".join(("−∞" if x < 0 else "∞") if abs(x) == math.inf else _edge(x, p) for x in limits)
+        return " … ".join(
+            end if abs(x) == math.inf else format_number(x) for end, x in zip(ends, limits, strict=True)
+        )
+    sizes = [abs(x) for x in limits if math.isfinite(x)]
+    unit = "percent" if p.units[0] == "percent" else p.display_unit(max(sizes, default=0.0))
+    found = [float(from_si(x, unit, p.kind)) for x in limits]
+    if p.kind.unit != "K" and any(0.0 < abs(x) < 0.01 for x in found):
+        return " … ".join(
+            end if abs(x) == math.inf else _edge(x, p) for end, x in zip(ends, limits, strict=True)
+        )
+    if not all(map(math.isfinite, limits)):
+        return " … ".join(
+            end if abs(x) == math.inf else show(x, p.kind, unit) for end, x in zip(ends, limits, strict=True)
+        )
+    return f"{' … '.join(map(format_number, found))} {pretty_unit(unit)}".strip()

@@ -79,8 +79,11 @@ def require_offered(operation: str, case: str, arguments: Mapping[str, Any]) -> 
         fields = BEGINNINGS.get(str(arguments.get("enters")), ())
         given = {name: str(arguments[name]).strip() for name in fields if name in arguments}
         with knowing_own(parsed(str(arguments.get("own", "")), "case")):
-            for field, text in given.items():
-                _require(text, (field,), field)
+            refused = [problem for field, text in given.items() if (problem := _refused(text, field))]
+            if refused:
+                first, *others = refused
+                beside = {str(one.details["name"]): one.as_json() for one in others}
+                raise InputError(first.message, **{**first.details, "beside": beside or None})
             if {"solute", "liquid"} <= set(given):
                 _require_pair(given["solute"], given["liquid"])
     if operation == "choose_substances":
@@ -96,6 +99,15 @@ def require_offered(operation: str, case: str, arguments: Mapping[str, Any]) -> 
 def _known(text: str, field: str) -> bool:
     found = session().called(text, SORTS[field])
     return found is not None and _complete(field, session().entry(SORTS[field], text)[1])
+
+
+def _refused(text: str, field: str) -> InputError | None:
+    """Why a text cannot stand in a field; None where it can."""
+    try:
+        _require(text, (field,), field)
+    except InputError as problem:
+        return problem
+    return None
 
 
 def _require(text: str, fields: tuple[str, ...], place: str) -> None:

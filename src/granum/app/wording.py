@@ -88,8 +88,10 @@ def _placed(found: re.Match[str], message: str) -> str:
 
 
 def told(error: Mapping[str, Any]) -> dict[str, Any]:
-    """An error as JSON with the message of a page."""
+    """An error as JSON with the message of a page, and those of further fields ``beside`` it."""
     error = dict(error)
+    if beside := error.get("beside"):
+        error["beside"] = {name: told(one)["message"] for name, one in beside.items()}
     kept = (error.get("name"), error.get("did_you_mean")) if error.pop("as_it_is", False) else ()
     return {**error, "message": page_words(str(error["message"]), error.get("allowed"), kept)}
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -32,6 +32,7 @@ from granum.core.parameters import Parameter
 from granum.core.stand_ins import stands_for
 from granum.core.words import plain
 from granum.flowsheet.run import Line
+from granum.materials.library import session
 from granum.streams.feeding import PHASES
 
 NOTHING = Parameter("nothing")
@@ -132,7 +133,8 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
             put(own, word, value)
     elif head == "mixture" and dot:
         listed = rest in PHASES and isinstance(value, str)
-        put(found["mixture"], rest, [part.strip() for part in value.split(",")] if listed else value)
+        parts = library_names(rest, map(str.strip, value.split(","))) if listed else value
+        put(found["mixture"], rest, parts)
     elif not dot and head in thing.optional_inlets() and str(value) in ("no", _("no"), "False"):
         feeds.pop(head, None)
     elif dot and (head in feeds or head in (thing.inlet_names() or (head,))):
@@ -251,6 +253,12 @@ def _fill_up(
             if left >= 0.0 and rest > 0.0:
                 filled = {n: float(f"{numbers[n] * left / rest:.12g}") for n in numbers if n not in own}
                 feed[shares] = {n: filled.get(n, v) for n, v in there.items()}
+
+
+def library_names(phase: str, words: Iterable[str]) -> list[str]:
+    """What the library calls substances; what it does not know stays as it is, to be refused in words."""
+    sorts = {"liquids": ("fluid", "solute"), "solids": ("solid",), "gases": ("fluid",)}[phase]
+    return [(session().called(word, *sorts) or word).partition(" in ")[0] for word in words]
 
 
 def _present(mixture: Mapping[str, Any]) -> set[tuple[str, str]]:

@@ -16,6 +16,7 @@ from typing import Any, Concatenate, ParamSpec
 
 import tomlkit
 
+from granum.cases.alone import library_names
 from granum.cases.flows import (
     BY_PHASE,
     BY_TOTAL,
@@ -148,15 +149,9 @@ def begin(
     """
     with knowing_own(parsed(own, "case")):
         solute = (session().called(solute, "solute") or solute).partition(" in ")[0]
-        liquid, gas = _names("liquids", [liquid])[0], _names("gases", [gas])[0]
-        text = _begun(title, enters, liquid, solute, _names("solids", [solid])[0], gas, own)
+        liquid, gas = library_names("liquids", [liquid])[0], library_names("gases", [gas])[0]
+        text = _begun(title, enters, liquid, solute, library_names("solids", [solid])[0], gas, own)
         return add_feed(text, _(enters), values=first_feed(table_of(parsed(text, "case"), "mixture"), enters))
-
-
-def _names(phase: str, words: Sequence[str]) -> list[str]:
-    """What the library calls substances; what it does not know stays as it is, to be refused in words."""
-    sorts = {"liquids": ("fluid", "solute"), "solids": ("solid",), "gases": ("fluid",)}[phase]
-    return [(session().called(word, *sorts) or word).partition(" in ")[0] for word in words]
 
 
 def _begun(title: str, enters: str, liquid: str, solute: str, solid: str, gas: str, own: str) -> str:
@@ -224,7 +219,11 @@ def choose_substances(
 ) -> str:
     """Other substances. Shares of feeds that named one which is gone are given to the first of its phase."""
     raw = parsed(case, "case")
-    liquids, solids, gases = _names("liquids", liquids), _names("solids", solids), _names("gases", gases)
+    liquids, solids, gases = (
+        library_names("liquids", liquids),
+        library_names("solids", solids),
+        library_names("gases", gases),
+    )
     species = {"liquids": liquids, "solids": solids, "gases": gases}
     _require_mixture(
         species

@@ -16,7 +16,7 @@ from granum.cases.fitted import fits_of, fitted_values
 from granum.cases.schema import OWN, Case, DynamicTable, FeedTable, MixtureTable, StreamTable
 from granum.core import registry
 from granum.core.conversion import convert
-from granum.core.documents import read_toml
+from granum.core.documents import read_toml, wrong_sort
 from granum.core.errors import CaseError, GranumError, InputError, reason_of, together, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -112,7 +112,7 @@ def _said(shape: type[Shape], error: ErrorDetails, name: str) -> str:
             ).message
     if error["type"] == "missing":
         return _("'{place}' is missing.").format(place=place)
-    return _("'{place}': {reason}.").format(place=place, reason=error["msg"])
+    return wrong_sort(error)
 
 
 def _fields_at(shape: type[Shape], location: tuple[Any, ...]) -> list[str]:

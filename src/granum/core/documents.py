@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from typing import Any
 
 import tomli
@@ -12,6 +13,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 
 DEEPEST = 50  # tables in tables; a case has five
+LONGEST_SHOWN = 60  # characters of a value in a message
 _LONG_KEY = re.compile(rf"(?<![\w.\"'-])(?:[\w\"'-]+[ \t]*\.[ \t]*){{{DEEPEST}}}")
 
 
@@ -52,6 +54,34 @@ def table_in(text: str, name: str) -> Any:
             ),
             name=name,
         ) from None
+
+
+def wrong_sort(error: Mapping[str, Any]) -> str:
+    """What is told of a value that stands where a file needs one of another sort, from what pydantic found.
+
+    >>> wrong_sort({"type": "list_type", "loc": ("mixture", "gases"), "input": "air"})
+    "'mixture.gases' = air is not possible: it must be a list, as in [1, 2]."
+    """
+    sort, place = error["type"], [str(part) for part in error["loc"]]
+    amount = place[-1] == "str"  # the first of what a number with its unit may be
+    if len(place) > 1 and (amount or place[-1][:1].isupper()):
+        place = place[:-1]  # a choice of the shape, no key of the file
+    limits = error.get("ctx", {})
+    needed = {
+        "model": _("a table of keys and values"),
+        "dict": _("a table of keys and values"),
+        "list": _("a list, as in [1, 2]"),
+        "string": _("a text in quotation marks"),
+        "int": _("a whole number"),
+        "float": _("a number"),
+        "greater": _("at least {low}").format(low=limits.get("ge")),
+        "less": _("at most {high}").format(high=limits.get("le")),
+    }.get(sort.partition("_")[0], _("a value of another sort"))
+    if amount:
+        needed = _("a number with its unit, in quotation marks")
+    return _("'{place}' = {value} is not possible: it must be {allowed}.").format(
+        place=".".join(place), value=str(error["input"])[:LONGEST_SHOWN], allowed=needed
+    )
 
 
 _SAID = re.compile(

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from granum.core.conversion import convert
+from granum.core.documents import wrong_sort
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -308,6 +309,8 @@ def read_materials(content: dict[str, Any], where: str) -> MaterialsFile:
             raise InputError(
                 _("{name}: '{place}' is missing.").format(name=where, place=place), place=place
             ) from problem
+        if first["type"] != "value_error":
+            raise InputError(f"{where}: {wrong_sort(first)}", place=place) from problem
         raise InputError(
             _("{name}: '{place}': {reason}.").format(
                 name=where, place=place, reason=first["msg"].removeprefix("Value error, ")

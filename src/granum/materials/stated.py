@@ -22,6 +22,9 @@ from granum.materials.solutes import SoluteSystem
 
 _WORDS = re.compile(r"^\s*(?P<name>.+?)\s+(?:at|à|@)\s+(?P<state>.+?)\s*$")
 _SOLUTION_WORDS = re.compile(r"^\s*(?P<name>.*(?:%|g/kg).*?)\s+(?:at|à|@)\s+(?P<state>.+?)\s*$")
+_STATE_ALONE = re.compile(
+    r"^\s*(?P<name>.+?)[\s,]+(?P<state>[-+−]?\d[\d.,]*\s*(?:°\s*[CF]|deg[CF]|K|C|F)(?![\w/]).*?)\s*$"
+)  # "water 60 °C"
 _SHARE = r"(?P<share>[-+−]?[\d.,]+\s*(?:wt\s*%|%|g/kg|kg/kg))"
 _SOLUTIONS = [
     re.compile(pattern, re.IGNORECASE)
@@ -52,7 +55,7 @@ class StatedFluid(NamedTuple):
         and, if not 1 atm, its pressure.
         """
         if isinstance(given, str):
-            words = _SOLUTION_WORDS.match(given) or _WORDS.match(given)
+            words = _SOLUTION_WORDS.match(given) or _WORDS.match(given) or _STATE_ALONE.match(given)
             if words is None:
                 raise _not_a_fluid(given)
             name, parts = words["name"], _PARTS.split(words["state"])
@@ -258,7 +261,7 @@ def _of_solution(system: Any, solvent: Fluid, word: str, law: Any, share: float)
 def _not_a_fluid(given: Any) -> InputError:
     return InputError(
         _(
-            "'fluid' = {value} is not understood: write it with its temperature, such as 'water at 20 °C'."
-        ).format(value=repr(given)),
+            "'fluid' = '{value}' is not understood: write it with its temperature, such as 'water at 20 °C'."
+        ).format(value=given),
         name="fluid",
     )

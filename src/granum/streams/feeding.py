@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -33,6 +34,8 @@ KIND = {
     "moisture_dry_basis": "MoistureDryBasis",
     "moisture_wet_basis": "MoistureWetBasis",
 }
+PRESSURE = replace(KINDS["Pressure"], open_lower=True)
+"""Of a feed: nothing flows out of a vacuum."""
 LEAST_INSIDE = 0.98  # of a feed that its size classes must hold
 
 
@@ -159,15 +162,8 @@ def feed(
             parts = ((share, "solids", solid), (1.0 - share, "liquids", liquid))
             total /= sum(part / per_volume(phase, given) for part, phase, given in parts if part)
         solids, liquids = total * share, total * (1.0 - share)
-    above_vacuum = quantity(pressure, "Pressure", "pressure")
-    if not above_vacuum > 0.0:
-        raise InputError(
-            _(
-                "{where}: 'pressure' = {value} is a vacuum: give the absolute pressure, such as '1 atm'."
-            ).format(where=where, value=pressure),
-            name="pressure",
-        )
-    stream = empty(mixture, warm, above_vacuum)
+    pressed = float(convert(pressure, Parameter("pressure", PRESSURE), " " + where))
+    stream = empty(mixture, warm, pressed)
     if liquids:
         stream = stream.replace(liquid=jnp.asarray(liquids * shares("liquids", liquid)))
     if solids:

@@ -23,7 +23,7 @@ export function Comparison({ cases, clear }) {
     html`<tr class=${strong ? '' : 'dim'}><td>${cases.map((c) => shown(c, name)?.label).find(Boolean)}</td>${cases.map((c, i) => cell(shown(c, name)?.text ?? '—', i > 0 && change(cases[0].inputs[name], c.inputs[name]), strong))}</tr>`;
   const equal = names.filter(same);
   return html`<h2>${t('Comparison')}</h2><div class="wide" data-comparison><table><thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${t('case {number}', { number: i + 1 })}</th>`)}</tr></thead>
-    <tbody>${cases[0].shown.map((first, k) => html`<tr><td><strong>${first.label}</strong></td>${cases.map((c, i) => cell(c.shown[k].text, i > 0 && change(cases[0].outputs[first.name], c.outputs[first.name]), true))}</tr>`)}
+    <tbody>${cases[0].shown.map((first, k) => html`<tr><td><strong>${first.label}</strong></td>${cases.map((c, i) => cell(c.intervals?.[first.name]?.text ?? c.shown[k].text, i > 0 && change(cases[0].outputs[first.name], c.outputs[first.name]), true))}</tr>`)}
     ${names.filter((name) => !same(name)).map((name) => input(name, true))}</tbody></table></div>
     ${equal.length > 0 && html`<details class="small"><summary>${t('The same in all cases ({count})', { count: equal.length })}</summary><div class="wide"><table><tbody>${equal.map((name) => html`<tr class="dim"><td>${shown(cases[0], name)?.label}</td><td class="n">${shown(cases[0], name)?.text}</td></tr>`)}</tbody></table></div></details>`}
     <div class="row"><button class="button" onClick=${clear}>${t('Clear')}</button></div>`;

@@ -24,6 +24,7 @@ export function Step({ name, place, seed, step, record }) {
   const [problem, setProblem] = useState('');
   const chosen = step.choices.length > 0;
   const right = kept.verdict?.verdict === 'right';
+  const unclear = kept.verdict?.verdict === 'unclear' && !chosen; // told at the field, once
   const latest = useRef(kept); // a verdict comes late: it stands beside the answer it is about, and only there
   const hold = (next) => {
     latest.current = next;
@@ -65,13 +66,13 @@ export function Step({ name, place, seed, step, record }) {
     }}>${
       chosen
         ? html`<${Choices} step=${step} group=${`choice-${place}`} text=${kept.text} onChange=${change} />`
-        : html`<${Quantity} p=${step.quantity} label=${step.label} text=${kept.text} onChange=${change} onEnter=${check} />`
+        : html`<${Quantity} p=${step.quantity} label=${step.label} text=${kept.text} onChange=${change} onEnter=${check} problem=${unclear ? said : ''} />`
     }
       <div class="row"><button class="button main" disabled=${!kept.text.trim()}>${busy && !kept.verdict ? t('Marking…') : t('Check')}</button>
       ${(step.hint || step.equation) && html`<button type="button" class="button" aria-expanded=${String(hint)} onClick=${() => setHint(!hint)}>${t('Hint')}</button>`}
       <button type="button" class="button" aria-expanded=${String(open)} onClick=${reveal}>${open ? t('Hide the answer') : t('Show the answer')}</button></div></form>
     ${step.within && !kept.verdict && html`<p class="small dim" data-within>${t('Right within {share}.', { share: step.within })}</p>`}
-    <p role="status" data-verdict=${kept.verdict?.verdict ?? ''} class=${`mark ${right ? 'ok' : 'out'}`}>${kept.verdict && html`${right ? '✓' : '✗'} <${Indexed} text=${said} />`}</p>
+    <p role="status" data-verdict=${kept.verdict?.verdict ?? ''} class=${`mark ${right ? 'ok' : 'out'}`}>${kept.verdict && !unclear && html`${right ? '✓' : '✗'} <${Indexed} text=${said} />`}</p>
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
     ${!kept.verdict && record?.right && html`<p class="small ok">✓ ${t('Solved before.')}</p>`}
     ${hint && html`<div class="card" data-hint>${step.hint && html`<p><${Indexed} text=${step.hint} /></p>`}${step.card && html`<${Named} step=${step} />`}${step.equation && html`<${Equation} shown=${step.equation} />`}</div>`}

@@ -65,7 +65,7 @@ export function NewLine({ make, cancel }) {
   }}><h2 class="first">${t('New line')}</h2>
     <label class="end" for="new-title"><span>${t('title')}</span><input id="new-title" type="text" value=${values.title} placeholder=${known ? suggestion(values) : ''} onInput=${(e) => set('title')(e.target.value)} /></label>
     <fieldset><legend>${t('What enters')}</legend>${BEGINNINGS.map(([name, label]) => html`<label class="choice line"><input type="radio" name="enters" value=${name} checked=${values.enters === name} onChange=${() => set('enters')(name)} /> ${t(label)}</label>`)}</fieldset>
-    ${rows && asked.map((name) => html`<${Choice} key=${name} id=${'new-' + name} label=${labels[name]} rows=${rows[name]} value=${values[name]} pick=${set(name)} problem=${problem?.details?.name === name ? problem.message : ''} />`)}
+    ${rows && asked.map((name) => html`<${Choice} key=${name} id=${'new-' + name} label=${labels[name]} rows=${rows[name]} value=${values[name]} pick=${set(name)} problem=${problem?.details?.name === name ? problem.message : (problem?.details?.beside?.[name] ?? '')} />`)}
     ${problem && !asked.includes(problem.details?.name) && html`<p class="message out" role="alert">${problem.message}</p>`}
     ${known && html`<${Describe} id="new-own" known=${known} solvent=${values.liquid} first=${values.enters === 'solution' ? 'solutes' : 'solids'} describe=${describe} />`}
     <p class="small dim">${t('Amounts, temperature and sizes start from ordinary values; change them afterwards.')}</p>

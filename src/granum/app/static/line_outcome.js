@@ -21,7 +21,7 @@ export function Outcome({ data, cases, clear, choose, place, text, compared, lab
     ${kept > 0 && html`<p class="ok">✓ ${failed.length ? (kept === 1 ? t('One other limit is kept.') : t('{count} other limits are kept.', { count: kept })) : t('All {count} practical limits are kept.', { count: kept })}</p>`}
     ${!failed.length && !kept && !found.length && !data.found.length && html`<p class="dim">${t('No unit of this line has a practical limit to check.')}</p>`}
     ${data.found.map((row) => html`<p>${t('found')}${colon()} <strong>${pretty(row.unit)}</strong>, ${row.label} = ${row.text}</p>`)}
-    ${found.length > 0 && html`<div class="wide" tabindex="0" role="region" aria-label=${t('Sizes and duties')}><table><tbody>${found.map(([name, key, row], i) => html`<tr data-finding=${name + '.' + key}><th scope="row">${i && found[i - 1][0] === name ? '' : pretty(name)}</th><td>${row.label}</td><td class="n"><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>`}
+    ${found.length > 0 && html`<div class="wide" tabindex="0" role="region" aria-label=${t('Sizes and duties')}><table><tbody>${found.map(([name, key, row], i) => html`<tr data-finding=${name + '.' + key}><th scope="row">${i && found[i - 1][0] === name ? html`<span class="hidden">${pretty(name)}</span>` : pretty(name)}</th><td>${row.label}</td><td class="n"><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>`}
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${pretty(flag.unit || '')}</strong> ${flag.message}</p>`)}</section>
     ${compared && html`<${Comparison} cases=${cases} clear=${clear} />`}
     <${StreamTable} table=${data.stream_table} place=${place} text=${text} choose=${choose} labels=${labels} />

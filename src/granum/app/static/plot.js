@@ -115,10 +115,13 @@ function untabled({ data, layout }) {
   };
 }
 
+/** The head of a column; that of the numbers of the rows, empty in a drawing, is told to those who listen. */
+export const headed = (head) => (bare(head).trim() ? head : `<span class="hidden">${t('number')}</span>`);
+
 /** A table of a chart as one of the page. */
 function Tabled({ trace, label }) {
   const [heads, columns] = [trace.header.values, trace.cells.values];
-  return html`<div class="wide" tabindex="0" role="region" aria-label=${label}><table class="small" aria-label=${label}><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: head }} />`)}</tr></thead><tbody>${columns[0].map((_, i) => html`<tr>${columns.map((column) => html`<td class="n">${column[i]}</td>`)}</tr>`)}</tbody></table></div>`;
+  return html`<div class="wide" tabindex="0" role="region" aria-label=${label}><table class="small" aria-label=${label}><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: headed(head) }} />`)}</tr></thead><tbody>${columns[0].map((_, i) => html`<tr>${columns.map((column) => html`<td class="n">${column[i]}</td>`)}</tr>`)}</tbody></table></div>`;
 }
 
 const bare = (text) => text.replace(/<[^>]*>/g, '');

@@ -20,14 +20,24 @@ const folded = () =>
       group.matches('.inlet') || [...group.querySelectorAll('input')].some((field) => field.value !== ''),
   );
 
+/** Fields in which nothing stands, not even what holds in its place. */
+const blank = () =>
+  [...document.querySelectorAll('main form .field')].filter((field) => {
+    const entries = [...field.querySelectorAll('.entry :is(input, select.alone, textarea)')];
+    return entries.length > 0 && entries.every((entry) => !entry.value && !entry.placeholder);
+  });
+
 function Printed() {
   const [, again] = useState(0);
   useEffect(() => {
     let kept = '';
     let opened = [];
+    let empty = [];
     const before = () => {
       opened = folded();
       for (const group of opened) group.open = true;
+      empty = blank();
+      for (const field of empty) field.classList.add('blank');
       kept = document.title;
       document.title = `${heading()} · Granum`; // the name of the file that is printed to
       again((count) => count + 1);
@@ -35,6 +45,7 @@ function Printed() {
     const after = () => {
       document.title = kept;
       for (const group of opened) group.open = false;
+      for (const field of empty) field.classList.remove('blank');
     };
     addEventListener('beforeprint', before);
     addEventListener('afterprint', after);

@@ -26,7 +26,7 @@ function Table({ name, columns, rows }) {
       'text/csv',
     );
   };
-  return html`<section class="series" data-series=${name} aria-label=${label}>
+  return html`<section class="series" data-series=${name}>
     ${
       axis &&
       html`<div class="row"><label>${t('Draw')} <select value=${drawn} onChange=${(e) => draw(e.target.value)}>${columns.slice(1).map((c) => html`<option value=${c.name} selected=${c.name === drawn}>${c.label}</option>`)}</select></label></div>

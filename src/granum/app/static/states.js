@@ -1,6 +1,7 @@
 // The states of a process in humid gas as a small table: each by its temperature and one of humidity ratio, relative
 // humidity or wet-bulb temperature; the rest is told by the chart.
 import { html, t, ask, useRef, useState } from './core.js';
+import { headed } from './plot.js';
 import { inLanguage } from './quantity.js';
 
 const UNITS = { temperature: 'degC', humidity_ratio: 'g/kg' };
@@ -90,10 +91,10 @@ export function States({ values, states, figure, set }) {
   };
   const text = (i, column) =>
     rows ? rows[column][i] : column < 3 ? inLanguage(String(states[i][column - 1])) : '';
-  return html`<section data-states aria-label=${t('States')}><h2>${t('States')}</h2>
+  return html`<section data-states><h2>${t('States')}</h2>
     ${
       states.length > 0 &&
-      html`<div class="wide" tabindex="0" role="region" aria-label=${t('States')}><table class="states"><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: head }} />`)}<th scope="col"><span class="hidden">${t('Remove')}</span></th></tr></thead>
+      html`<div class="wide" tabindex="0" role="region" aria-label=${t('States')}><table class="states"><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: headed(head) }} />`)}<th scope="col"><span class="hidden">${t('Remove')}</span></th></tr></thead>
       <tbody>${states.map(
         (_, i) =>
           html`<tr key=${`${i} ${states.length}`}>${heads.map((head, column) => (column >= 1 && column <= 4 ? html`<td class="n"><${Cell} label=${`${t('state {number}', { number: i + 1 })}, ${head.replace(/<[^>]*>/g, '')}`} text=${text(i, column)} change=${(typed) => change(i, column, typed)} /></td>` : html`<td class="n">${column === 0 ? i + 1 : text(i, column)}</td>`))}

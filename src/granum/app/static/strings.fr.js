@@ -189,6 +189,7 @@ export const french = {
     'Produit : {stream}. Entre parenthèses : fourni par un autre appareil de la ligne, et non compté.',
   'The same page again:': 'La même page de nouveau :',
   'States': 'États',
+  'number': 'numéro',
   'state {number}': 'état {number}',
   'Remove state {number}': 'Retirer l’état {number}',
   'Add a state': 'Ajouter un état',

@@ -108,7 +108,13 @@ def from_mole_fraction(x: Any, solute: Any, solvent: Any) -> Any:
     equation=r"\ln x = A + B/T + C \ln T,\quad C^* = \frac{M}{M_s}\,\frac{x}{1 - x}",
 )
 class ApelblatSolubility(SolubilityLaw):
-    """Mole fraction at saturation by the modified Apelblat equation, T in kelvin."""
+    """Mole fraction at saturation by the modified Apelblat equation, T in kelvin.
+
+    By hand, ln x = −50 − 1500/298.15 + 9 ln 298.15 = −3.753:
+
+    >>> round(float(ApelblatSolubility(-50.0, -1500.0, 9.0, 0.085)(298.15)), 4)
+    0.1133
+    """
 
     apelblat_a: Number
     apelblat_b: Number

@@ -132,6 +132,10 @@ def freeze_drying_tray(
     heat taken up by the vapor on its way are left out. ``emissivity`` is that of the pair. No value where the
     shelf is too cold for ice to sublime.
 
+    >>> tray = freeze_drying_tray("20 degC", "100 ubar", "10 mm", 500.0, 0.035, "2e-8 kg/(m*s*Pa)")
+    >>> bool(0.0 < tray.sublimation_flux < tray.sublimation_flux_highest)
+    True
+
     A thick layer without heat from below is King's slab (``freeze_drying_slab``) with the shelf at its
     surface: his coffee extract, 30 °C and 97 µm Hg, has its front at −29.4 °C by his chart.
 
