@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -81,12 +81,15 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
     found = {"title": thing.card.title, "mixture": mixture, "feeds": feeds, "units": {name: own}}
     before = _present(mixture)
     described: dict[str, Any] = {}
+    names = {
+        w.split(".")[1].strip('"') for w in words or {} if w.partition(".")[0] in OWN and w.count(".") > 1
+    }
     for word in sorted(words or {}, key=_laws_first):
         value = (words or {})[word]
         if word.partition(".")[0] in OWN and word.count(".") > 1:
             put(described, word, _read(word, value))
         else:
-            _say(thing, found, own, word, _read(word, value))
+            _say(thing, found, own, word, _read(word, value), names)
     for word, displaced in thing.instead.items():
         if (words or {}).get(word, "") != "" and displaced not in (words or {}):
             own.pop(displaced, None)
@@ -118,8 +121,10 @@ def _read(word: str, value: Any) -> Any:
     return value
 
 
-def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, value: Any) -> None:
-    """One word put where it belongs."""
+def _say(
+    thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, value: Any, described: Set[str]
+) -> None:
+    """One word put where it belongs; substances that are described keep the names they are described by."""
     head, dot, rest = word.partition(".")
     feeds = found["feeds"]
     wanted = stands_for(word, {p.name for p in thing.card.parameters})
@@ -133,7 +138,7 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
             put(own, word, value)
     elif head == "mixture" and dot:
         listed = rest in PHASES and isinstance(value, str)
-        parts = library_names(rest, map(str.strip, value.split(","))) if listed else value
+        parts = library_names(rest, map(str.strip, value.split(",")), described) if listed else value
         put(found["mixture"], rest, parts)
     elif not dot and head in thing.optional_inlets() and str(value) in ("no", _("no"), "False"):
         feeds.pop(head, None)
@@ -255,10 +260,15 @@ def _fill_up(
                 feed[shares] = {n: filled.get(n, v) for n, v in there.items()}
 
 
-def library_names(phase: str, words: Iterable[str]) -> list[str]:
-    """What the library calls substances; what it does not know stays as it is, to be refused in words."""
+def library_names(phase: str, words: Iterable[str], described: Set[str] = frozenset()) -> list[str]:
+    """What the library calls substances; what it does not know stays as it is, to be refused in words, as do
+    the names of those that are ``described``.
+    """
     sorts = {"liquids": ("fluid", "solute"), "solids": ("solid",), "gases": ("fluid",)}[phase]
-    return [(session().called(word, *sorts) or word).partition(" in ")[0] for word in words]
+    return [
+        word if word in described else (session().called(word, *sorts) or word).partition(" in ")[0]
+        for word in words
+    ]
 
 
 def _present(mixture: Mapping[str, Any]) -> set[tuple[str, str]]:

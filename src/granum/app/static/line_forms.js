@@ -15,10 +15,10 @@ export function fieldOf(form, problem) {
   return row ? { unit, name: row.name, option: option || (row.name === name ? '' : name), message: problem.message } : null;
 }
 
-/** Feeds and equipment, each a closed form that opens when asked. */
-export function Forms({ form, typedIn, build, refused }) {
-  const open = (name) => refused?.unit === name;
-  const wrong = (name) => (open(name) ? refused : null);
+/** Feeds and equipment, each a closed form that opens when asked, or is about the unit at fault. */
+export function Forms({ form, typedIn, build, refused, fault }) {
+  const open = (name) => (refused?.unit || fault) === name;
+  const wrong = (name) => (refused?.unit === name ? refused : null);
   return html`${group(t('Feeds'), form.feeds, (name, item) => html`<details key=${'feeds' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.to ? `→ ${placed(form.ends.targets, item.to)}` : t('goes nowhere yet')}</span></summary><${FeedForm} name=${name} item=${item} form=${form} typedIn=${typedIn} build=${build} wrong=${wrong(name)} /></details>`)}
     ${group(t('Equipment'), form.units, (name, item) => html`<details key=${'units' + name} open=${open(name)} data-form=${name}><summary><strong>${pretty(name)}</strong> <span class="dim">${item.title || item.model}</span></summary><${ItemForm} table="units" name=${name} item=${item} typedIn=${typedIn} wrong=${wrong(name)} /></details>`)}`;
 }
