@@ -29,7 +29,7 @@ from granum.flowsheet.drawing import draw
 from granum.flowsheet.dynamics import Course, Profile, march
 from granum.flowsheet.findings import Findings, fault_in_time
 from granum.flowsheet.fitted import fit_notices
-from granum.flowsheet.idle_gas import idle_gas
+from granum.flowsheet.idle import idle
 from granum.flowsheet.labelled import attributes, stream_dataset, stream_frame
 from granum.flowsheet.ladder import climb
 from granum.flowsheet.passing import told
@@ -370,8 +370,8 @@ class Run:
         """What the formulas of each unit flagged, and the fits that it takes numbers from, with the unit's
         name.
         """
-        idle = idle_gas(self.sheet, self.streams)
-        return told(self.solution.records) + fit_notices(self.line.fits, self.sheet) + idle
+        in_vain = idle(self.sheet, self.streams)
+        return told(self.solution.records) + fit_notices(self.line.fits, self.sheet) + in_vain
 
     @cached_property
     def course(self) -> Course | None:

@@ -105,6 +105,7 @@ class Unit(eqx.Module):
     limits: ClassVar[Limits] = {}
     utilities: ClassVar[Utilities] = {}
     known_axes: ClassVar[tuple[str, ...]] = ()
+    takes_dust: ClassVar[bool] = False  # whether it is there to take solid out of the gas of its feed
 
     def inside(self, *args: Any, **inlets: Any) -> Any:
         """What outlets, figures and limits have in common, worked out once; nothing by default."""

@@ -33,7 +33,6 @@ from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.materials.library import Library
 from granum.numerics.smooth import safe_divide
 from granum.streams.atmosphere import EXPLOSIBLE, VENTED, explosible, vented
-from granum.streams.dust_carried import told_without_dust
 from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit, Utilities
@@ -109,6 +108,7 @@ class GasCyclone(Unit):
     wall_hardness: Pressure = MILD_STEEL
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
+    takes_dust: ClassVar[bool] = True
     limits: ClassVar[Limits] = {
         "velocity": Limit("inlet velocity", 10.0, 27.0, "m/s", "hoffmann2008"),
         "saltation": Limit("inlet velocity over saltation velocity", 0.8, 1.36, "dimensionless", "kalen1974"),
@@ -130,7 +130,6 @@ class GasCyclone(Unit):
 
     def inside(self, feed: Stream) -> Swirl:
         m, shape, viscosity, dust = feed.mixture, self.dimensions, feed.gas_viscosity, feed.solid_density
-        told_without_dust(feed, type(self).card.key)
         volume = feed.gas_volume_flow
         flow = jnp.maximum(volume, LEAST) / self.parallel_number
         # without gas nothing is carried

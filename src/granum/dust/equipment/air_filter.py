@@ -28,7 +28,6 @@ from granum.filtration.formulas.gas_filters import penetration_fibers, pressure_
 from granum.filtration.kinds import DustResistance
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.slip import knudsen_number, mean_free_path, slip_factor_allen_raabe
-from granum.streams.dust_carried import told_without_dust
 from granum.streams.pressures import pressure_left
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
@@ -105,6 +104,7 @@ class AirFilter(Collector):
     oxygen_fraction: MoleFraction | None = None
     oxygen_reference: MoleFraction | None = None
 
+    takes_dust: ClassVar[bool] = True
     limits: ClassVar[Limits] = Collector.limits | {
         "velocity": Limit("gas velocity through the medium of an air filter", 0.005, 0.5, "m/s", SOURCE),
         "clean": Limit("clean pressure drop over the final one", 0.0, 0.6, "dimensionless", SOURCE),
@@ -115,7 +115,6 @@ class AirFilter(Collector):
 
     def inside(self, feed: Stream) -> Fibered:
         gas = seen(feed)
-        told_without_dust(feed, type(self).card.key)
         U = jnp.maximum(gas.volume_flow / self.area, SLOWEST)
         moles = sum((feed.gas[i] / s.molar_mass for i, s in enumerate(feed.mixture.gases)), jnp.zeros(()))
         molar_mass = safe_divide(feed.gas_flow, moles, otherwise=feed.mixture.gases[0].molar_mass)

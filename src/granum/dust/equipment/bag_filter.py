@@ -32,7 +32,6 @@ from granum.dust.formulas.bags import residual_drag_pulse_jet
 from granum.filtration.formulas.gas_filters import pressure_drop_dust_cake
 from granum.filtration.kinds import DustResistance, ResidualDrag
 from granum.numerics.smooth import safe_divide
-from granum.streams.dust_carried import told_without_dust
 from granum.streams.inside_charts import Axis, Curve, drawn_along
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Utilities
@@ -96,6 +95,7 @@ class BagFilter(Collector):
     layer_ignition_temperature: Temperature | None = None
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
+    takes_dust: ClassVar[bool] = True
     limits: ClassVar[Limits] = (
         Collector.limits
         | IGNITION
@@ -121,7 +121,6 @@ class BagFilter(Collector):
 
     def inside(self, feed: Stream) -> Bagged:
         gas = seen(feed)
-        told_without_dust(feed, type(self).card.key)
         velocity = jnp.maximum(gas.volume_flow / self.area, SLOWEST)
         dust = safe_divide(feed.solid_flow, gas.volume_flow)
         drag, cake, t = self.drag, self.dust_resistance, self.cleaning_interval

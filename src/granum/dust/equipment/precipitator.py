@@ -31,7 +31,6 @@ from granum.dust.formulas.precipitation import (
 )
 from granum.dust.kinds import CurrentDensity, IonDose, Voltage
 from granum.numerics.smooth import safe_divide
-from granum.streams.dust_carried import told_without_dust
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, driven, fanned
@@ -96,6 +95,7 @@ class ElectrostaticPrecipitator(Collector):
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
     migration_velocity_effective: Speed | None = None
 
+    takes_dust: ClassVar[bool] = True
     limits: ClassVar[Limits] = (
         Collector.limits
         | IGNITION
@@ -110,7 +110,6 @@ class ElectrostaticPrecipitator(Collector):
 
     def inside(self, feed: Stream) -> Charged:
         gas = seen(feed)
-        told_without_dust(feed, type(self).card.key)
         flow = jnp.maximum(gas.volume_flow, SLOWEST)
         if self.migration_velocity_effective is not None:
             speed = jnp.full_like(slip(gas, feed), self.migration_velocity_effective)

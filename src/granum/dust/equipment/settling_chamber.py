@@ -26,7 +26,6 @@ from granum.dust.formulas.chambers import (
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import terminal_velocity
-from granum.streams.dust_carried import told_without_dust
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, FANNED, fanned
@@ -79,6 +78,7 @@ class SettlingChamber(Collector):
     layer_ignition_temperature: Temperature | None = None
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
 
+    takes_dust: ClassVar[bool] = True
     limits: ClassVar[Limits] = (
         Collector.limits
         | IGNITION
@@ -91,7 +91,6 @@ class SettlingChamber(Collector):
 
     def inside(self, feed: Stream) -> Fallen:
         gas = seen(feed)
-        told_without_dust(feed, type(self).card.key)
         floor = self.length * self.width
         fall = jnp.maximum(
             terminal_velocity(gas.size, gas.particle_density, gas.density, gas.viscosity, drag=self.drag), 0.0
