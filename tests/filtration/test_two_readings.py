@@ -120,3 +120,10 @@ def test_resistances_at_two_pressures_give_the_compressibility() -> None:
     assert float(found.cake_resistance_reference) == pytest.approx(4.37e9, rel=1e-9)
     with pytest.raises(InputError, match="compressibility_two_resistances"):
         gr.filtration.Compressibility(pressure_drop=[4e4, 3e5], cake_resistance=alpha)
+
+
+def test_a_cake_that_loosens_under_pressure_is_doubted() -> None:
+    turned = gr.filtration.compressibility_two_resistances.evaluate(2e11, "1 bar", 1e11, "4 bar")
+    assert any("lets more through" in told["message"] for told in turned.notices)
+    with pytest.raises(GranumError, match="must differ"):
+        gr.filtration.compressibility_two_resistances(1e11, "1 bar", 2e11, "1 bar")

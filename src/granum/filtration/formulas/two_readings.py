@@ -7,6 +7,7 @@ from typing import NamedTuple
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
+from granum.core.flags import extrapolated
 from granum.core.kinds import (
     Area,
     CakeResistance,
@@ -24,6 +25,7 @@ LATER = "The second reading must be the later one."
 SLOWS = "Each volume takes more time as the cake grows: t/V must rise."
 NO_MEDIUM = "The line through both readings meets zero below: the medium would help the flow."
 APART = "The second pressure must differ from the first."
+LOOSENS = "No cake lets more through the harder it is pressed: look at both readings."
 RISES = "At constant rate the pressure rises as the cake grows."
 
 
@@ -170,7 +172,8 @@ def compressibility_two_resistances(
     """
     p1, p2 = pressure_drop_first, pressure_drop_second
     apart = p1 != p2
-    impossible(~apart, p2, "pressure_drop_second", p1, jnp.inf, APART)
+    impossible(~apart, p2, "pressure_drop_second", reason=APART)
     ratio = jnp.where(apart, jnp.log(p2 / p1), 1.0)
     n = jnp.where(apart, jnp.log(cake_resistance_second / cake_resistance_first) / ratio, jnp.nan)
+    extrapolated(n < 0.0, n, "compressibility", 0.0, reason=LOOSENS)
     return Compressed(n, cake_resistance_first * (reference_pressure / p1) ** n)
