@@ -116,7 +116,7 @@ def test_what_stands_against_a_size_is_told() -> None:
 
 def test_what_is_counted_is_told_as_a_whole_number() -> None:
     told = doubts(gr.size("settling.lamella", overflow_rate="1 m/hour", feed={"liquid_flow": "150 t/h"}))
-    assert "A whole number is built: number of plates = 119 or 120" in told
+    assert "A whole number is built: number of plates = 118 or 119" in told
     counted = {row["setting"] for row in _declared().values() if row.get("whole")}
     assert counted == {
         row["setting"]

@@ -147,6 +147,40 @@ def test_protein_at_its_gel() -> None:
     assert 0.04 * math.log(250 / 20) == pytest.approx(0.101, abs=5e-4)
 
 
+@pytest.mark.parametrize("gallons", [0.0860, 0.11, 0.2])
+def test_bacteria_in_a_tubular_bowl(gallons: float) -> None:
+    """Seader, exercise 19.19 (scribd.com 347640498): E. coli of 0.7 µm, 30 kg/m³ denser than its broth, 800
+    rps, radii of 0.65 and 0.875 in, 4.5 in long: 690 m² and 0.0860 gpm for all of it. Beyond, by the plug
+    of liquid that passes the annulus; the Sigma told is for half of it.
+    """
+    outer, inner, turn = 0.875 * INCH, 0.65 * INCH, 2 * math.pi * 800
+    area = math.pi * 4.5 * INCH * (outer**2 - inner**2) * turn**2 / 9.81
+    fall = 0.7e-6**2 * 30 * 9.81 / (18 * 1.02e-3)
+    flow = gallons * US_GALLON / 60
+    caught = -math.expm1(-2 * fall * area / flow) * outer**2 / (outer**2 - inner**2)
+    run = solved(
+        "centrifuges.tubular_bowl",
+        radius_inner="0.65 in",
+        radius_outer="0.875 in",
+        rotation_speed="800 Hz",
+        bowl_length="4.5 in",
+        sigma_efficiency=1,
+        mixture=only("coli", 0.7, 0.001),
+        feed={
+            "liquid_flow": f"{gallons} gallon/min",
+            "solid_flow": "1 mg/h",
+            "temperature": "19.3 degC",  # 1.02 mPa s
+            "sizes": ALONE,
+        },
+        **described("coli", 1028.35),
+    )
+    assert area / math.log(outer / inner) == pytest.approx(690, rel=0.005)
+    assert fall * area / math.log(outer / inner) == pytest.approx(0.0860 * US_GALLON / 60, rel=0.005)
+    assert run.figure("tubular_bowl.solids_recovery") == pytest.approx(min(caught, 1), abs=0.004)
+    half = area / math.log(2 * outer**2 / (outer**2 + inner**2))
+    assert run.figure("tubular_bowl.sigma_factor") == pytest.approx(half, rel=0.001)
+
+
 def test_where_two_liquids_meet_in_a_bowl() -> None:
     """FOSSEE 2762, example 14.4-3 (Geankoplis): oil of 919.5 over water of 980.3 kg/m³, weirs at 10.16 and
     10.414 mm: the interface stands at 13.75 mm by the root of its difference of moments.
@@ -160,7 +194,7 @@ def test_where_two_liquids_meet_in_a_bowl() -> None:
         light_solids_fraction="99.9 %",
         mixture={"solids": "oil"},
         feed={"liquid_flow": "1 m3/h", "temperature": "20 degC"},
-        **described("oil", oil * 997.36 / water),
+        **described("oil", oil * 998.2 / water),
     )
     assert run.figure("disc_separator.radius_interface") * 1000 == pytest.approx(meets, rel=0.002)
 

@@ -153,6 +153,17 @@ def test_a_feed_outside_its_size_classes_says_on_which_side_and_what_to_give() -
     assert "coarser" not in str(told.value)  # of which there are exp(−1000)
 
 
+@pytest.mark.parametrize(
+    ("temperature", "density"),
+    [(4, 999.97), (20, 998.21), (25, 997.05), (40, 992.22), (60, 983.20), (95, 961.9)],
+)
+def test_water_of_a_stream_weighs_what_tables_say(temperature: float, density: float) -> None:
+    """Handbook values at 1 atm. Cells differ from their broth by 30 kg/m³: one too few would be 3 % of it."""
+    water = mixture_of(["water"], [], [], [1e-6, 1e-3])
+    stream = feed(water, temperature=f"{temperature} degC", liquid_flow="1 kg/s")
+    assert float(stream.liquid_density) == pytest.approx(density, abs=0.15)
+
+
 @pytest.mark.parametrize("pressure", [0, "0 bar", "0 atm"])
 def test_nothing_flows_out_of_a_vacuum(pressure: Any) -> None:
     with pytest.raises(InputError, match=r"\('pressure'\) = 0 .* greater than 0"):
