@@ -167,8 +167,9 @@ def _say(
         if word in {p.name for p in thing.card.outputs}:
             raise InputError(
                 _(
-                    "'{name}' is what {owner} answers, not an input. To have a value of it, size for it: in "
-                    "a case file a table [specifications.NAME] with 'vary', 'so_that' and 'equals'."
+                    "'{name}' is what {owner} answers, not an input. To have a value of it, size for it: "
+                    "'granum calc' with '--solve size', 'granum.size' in Python, in a case file a table "
+                    "[specifications.NAME] with 'vary', 'so_that' and 'equals'."
                 ).format(name=word, owner=thing.card.key),
                 name=word,
             )
