@@ -145,7 +145,10 @@ Density = Annotated[Any, _positive("density", "kg/m^3", "kg/m^3", "g/cm^3", "lb/
 DensityDifference = Annotated[Any, _any("density difference", "kg/m^3", "kg/m^3", "g/cm^3")]
 SpecificVolume = Annotated[Any, _positive("specific volume", "m^3/kg", "m^3/kg", "L/kg", "cm^3/g")]
 VolumePerMass = Annotated[Any, _nonnegative("volume per mass", "m^3/kg", "mL/g", "L/kg", "m^3/kg")]
-Concentration = Annotated[Any, _nonnegative("mass concentration", "kg/m^3", "g/L", "mg/L")]
+Concentration = Annotated[
+    Any,
+    _nonnegative("mass concentration", "kg/m^3", "g/L", "mg/L", "ug/L", "g/m^3", "mg/m^3", "ug/m^3"),
+]
 NumberDensity = Annotated[Any, _nonnegative("number per volume", "1/m^3", "1/cm^3", "1/L")]
 MolarConcentration = Annotated[Any, _positive("molar concentration", "mol/m^3", "mol/L", "mmol/L", "mol/m^3")]
 Molality = Annotated[Any, _nonnegative("molality", "mol/kg", "mol/kg", "mmol/kg")]

@@ -435,7 +435,7 @@ def best_unit(value: float, kind: Kind) -> str:
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:
-            if low <= sizes[unit] < high:
+            if low <= sizes[unit] < min(high, most_of(unit, units)):
                 return unit
     # far from any of them, nobody counts in percent
     far = [u for u in units if u != "percent"] or units
@@ -443,11 +443,14 @@ def best_unit(value: float, kind: Kind) -> str:
 
 
 def most_of(unit: str, offered: Iterable[str]) -> float:
-    """The number from which a unit gives way to a larger one: from 1 m/s on nobody writes mm/s.
+    """The number from which a unit gives way to a larger one: from 1 m/s on nobody writes mm/s, from five
+    hours on nobody minutes, and turns per minute have none above them.
 
-    >>> most_of("mm/s", ("mm/s", "m/s")), most_of("kJ/kg", ("kJ/kg", "kcal/kg"))
-    (1000.0, 10000.0)
+    >>> most_of("mm/s", ("mm/s", "m/s")), most_of("kJ/kg", ("kJ/kg", "kcal/kg")), most_of("rpm", ())
+    (1000.0, 10000.0, 1000000.0)
     """
+    if unit in ("min", "rpm"):
+        return 1e6 if unit == "rpm" else 300.0 if "hour" in offered else 1e4
     small = re.match(r"[umn](?=(m|s|g|L|N|Pa)\b)", unit)
     larger = {unit[1:], "m" + unit[1:], "k" + unit[1:]} if small else set()
     return 1e3 if larger & set(offered) - {unit} else 1e4
@@ -467,13 +470,15 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
     array = np.abs(np.atleast_1d(np.asarray(values, dtype=float)))
     good = array[np.isfinite(array) & (array > 0.0)]
     middle = float(np.median(good)) if good.size else 0.0
-    if (
-        usual
-        and not field_units(kind)
-        and same_dimension(usual, kind.unit)
-        and (not middle or 0.1 <= abs(from_si(middle, usual, kind)) < most_of(usual, kind.units))
-    ):
-        return usual
+    if not usual or field_units(kind) or not same_dimension(usual, kind.unit):
+        return best_unit(middle, kind)
+    # what is usual per cubic meter stays so: a gas has µg/m³ where a liquid has µg/L
+    _top, slash, below = usual.partition("/")
+    alike = [u for u in kind.units if slash and u.partition("/")[2] == below]
+    least = 0.01 if slash and not set(alike) - {usual} else 0.1  # 0.08 m/h, not 22 µm/s
+    for unit in (usual, *alike):
+        if not middle or least <= abs(from_si(middle, unit, kind)) < most_of(unit, kind.units):
+            return unit
     return best_unit(middle, kind)
 
 
@@ -503,6 +508,19 @@ def format_number(value: float, digits: int = 4) -> str:
     return decimal(text)
 
 
+def figures_of(number: float, unit: str) -> int:
+    """How many significant figures a number is printed with: four, but so many of a percentage just below a
+    hundred that two are left of what is missing.
+
+    >>> format_number(99.99943, figures_of(99.99943, "percent")), figures_of(99.99943, "degC")
+    ('99.99943', 4)
+    """
+    missing = 100.0 - number
+    if unit != "percent" or not 1e-7 <= missing < 0.1:
+        return 4
+    return 3 - int(np.floor(np.log10(missing)))
+
+
 def ten_to(power: int) -> str:
     """``× 10⁸``."""
     return f"× 10{str(power).translate(_SUPERSCRIPT)}"
@@ -522,4 +540,5 @@ def show(value: float, kind: Kind, unit: str | None = None) -> str:
     '85 µm'
     """
     chosen = unit or best_unit(value, kind)
-    return f"{format_number(float(from_si(value, chosen, kind)))} {pretty_unit(chosen)}".strip()
+    number = float(from_si(value, chosen, kind))
+    return f"{format_number(number, figures_of(number, chosen))} {pretty_unit(chosen)}".strip()

@@ -31,6 +31,7 @@ from granum.streams.utilities import COLD
 
 GAS_OUTLETS = ("exhaust", "vapor", "gas", "warmed_air")
 HOTTEST_DRYING = 453.15  # K, up to which the notes give a heat of vaporization
+DUSTY = 1e-4  # kg of solid per kg of gas, a tenth of a gram per cubic meter: below it one cleans a gas
 REMOVED = ("evaporation_rate", "evaporation")
 """Figures by which a dryer or an evaporator, or a crystallizer, says how much water it removes."""
 
@@ -187,12 +188,13 @@ def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
 
     The one with most solid times its share of solid, so that a cake comes before the water that has more
     solid in it; without solids that with most beside the solvent, of those that a unit calls its product if
-    there are any: a melt is purified by leaving what is beside it.
+    there are any: a melt is purified by leaving what is beside it. The dust of a gas is no product.
     """
     leaving = [streams[name] for name in line.products]
     solid, mass = (jnp.stack([getattr(s, n) for s in leaving]) for n in ("solid_flow", "mass_flow"))
     liquid = jnp.stack([s.liquid for s in leaving])
-    whole, trace = jnp.sum(liquid, axis=1), 1e-9 * jnp.sum(mass)
+    gas = jnp.stack([s.gas_flow for s in leaving])
+    whole, trace = jnp.sum(liquid, axis=1), 1e-9 * jnp.sum(mass) + DUSTY * jnp.sum(gas)
     # of a mixture without liquids nothing is the solvent
     solvent = jnp.argmax(jnp.sum(liquid, axis=0)) if liquid.shape[1] else 0
     dissolved = whole - liquid @ (jnp.arange(liquid.shape[1]) == solvent)

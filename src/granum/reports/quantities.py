@@ -22,6 +22,7 @@ from granum.core.sources import cite
 from granum.core.units import (
     decimal,
     field_units,
+    figures_of,
     format_number,
     from_si,
     pretty_unit,
@@ -69,7 +70,7 @@ def in_units(value: Any, parameter: Parameter) -> list[dict[str, str]]:
             {
                 "unit": unit,
                 "label": pretty_unit(unit),
-                "text": format_number(number),
+                "text": format_number(number, figures_of(number, unit)),
                 "full": full.replace(".", ",") if comma else full,
             }
         )
@@ -364,13 +365,14 @@ def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> Chec
     looked_at = next(((p, x) for p, x in figures if _same_quantity(p, x, check)), None)
     if looked_at is None or looked_at[0].kind is None:
         tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
+        digits = figures_of(value, "percent" if tail.endswith("%") else check.unit)
     else:
         kind, unit = looked_at[0].kind, looked_at[0].display_unit(np.asarray(looked_at[1], dtype=float))
         value, low, high = (float(from_si(number, unit, kind)) for number in (value, low, high))
-        tail = f" {pretty_unit(unit)}".rstrip()
+        tail, digits = f" {pretty_unit(unit)}".rstrip(), figures_of(value, unit)
     far = 1e3 * max(abs(value), 1.0)  # a limit that only says that there is none
     low, high = -math.inf if low <= -far else low, math.inf if high >= far else high
-    return CheckRow(_(check.name), check.ok, format_number(value) + tail, _between(low, high) + tail)
+    return CheckRow(_(check.name), check.ok, format_number(value, digits) + tail, _between(low, high) + tail)
 
 
 def _same_quantity(p: Parameter, value: Any, check: Any) -> bool:
@@ -423,7 +425,10 @@ def _end(low: float, high: float) -> float:
 def _shown(unit: str, sized: float, *numbers: float) -> tuple[str, tuple[float, ...]]:
     """The unit in which a number of this size is read, after a space, and numbers in it."""
     kind = _kind_in(unit)
-    if kind is not None and (kind.unit == "K" or field_units(kind) or not 0.05 <= abs(sized) < 1e4):
+    usual = kind is not None and (not kind.display or unit in kind.display)  # nobody counts in rad/s
+    if kind is not None and (
+        kind.unit == "K" or field_units(kind) or not usual or not 0.05 <= abs(sized) < 1e4
+    ):
         unit = Parameter("", kind).display_unit(sized)
         numbers = tuple(float(from_si(x, unit, kind)) for x in numbers)
     return f" {pretty_unit(unit)}".rstrip(), numbers

@@ -49,7 +49,7 @@ class BagFigures(NamedTuple):
     pressure_drop: PressureDrop
     pressure_drop_highest: PressureDrop
     dry_mass_per_area: MassPerAreaOrZero
-    concentration_inlet: Concentration
+    dust_concentration_inlet: Concentration
     removal_efficiency: Fraction
     emission_concentration: Concentration
 
