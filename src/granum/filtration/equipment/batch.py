@@ -82,7 +82,7 @@ class BatchFilter(CakeFilter):
             jnp.asarray(self.deliquoring_time, dtype=float),
             cycle,
             s.solid_flow * cycle / loading,
-            jnp.zeros(()),
+            None,  # the wash takes the time it asks for
         )
 
     def drawn(

@@ -79,7 +79,7 @@ class CakeFigures(NamedTuple):
     deliquoring_time: Time
     filtrate_flow: VolumeFlow
     wash_ratio: Ratio
-    wash_use: Ratio
+    wash_use: Ratio | None  # of a filter whose washing has a given time
     solute_remaining: Fraction
     cake_saturation: Fraction
     moisture_dry_basis: MoistureDryBasis
@@ -368,10 +368,11 @@ class CakeFilter(CakeMaker):
     ) -> dict[str, Any]:
         found = {
             "capacity": figures.capacity_use,
-            "wash": inside.plan.wash_use,
             "packed": feed.solids_volume_fraction / (1.0 - self.void_fraction),
             "filterable": self.permeability(inside.slurry),
         }
+        if inside.plan.wash_use is not None:
+            found["wash"] = inside.plan.wash_use
         enters = self.over_threshold(feed)
         found["entered"] = jnp.where(inside.plan.deliquoring_time > 0.0, enters, jnp.maximum(enters, 1.0))
         drained = (inside.plan.deliquoring_time > 0.0) & (not self.closed)
