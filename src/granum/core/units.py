@@ -508,15 +508,18 @@ def format_number(value: float, digits: int = 4) -> str:
     return decimal(text)
 
 
-def figures_of(number: float, unit: str) -> int:
-    """How many significant figures a number is printed with: four, but so many of a percentage just below a
-    hundred that two are left of what is missing.
+def figures_of(number: float, unit: str, kind: Kind) -> int:
+    """How many significant figures a number is printed with: four, but so many of a percentage just below
+    the hundred that it cannot exceed that two are left of what is missing.
 
-    >>> format_number(99.99943, figures_of(99.99943, "percent")), figures_of(99.99943, "degC")
-    ('99.99943', 4)
+    >>> from granum.core.kinds import KINDS
+    >>> format_number(99.99943, figures_of(99.99943, "percent", KINDS["Fraction"]))
+    '99.99943'
+    >>> figures_of(99.99943, "percent", KINDS["MoistureDryBasis"])
+    4
     """
     missing = 100.0 - number
-    if unit != "percent" or not 1e-7 <= missing < 0.1:
+    if unit != "percent" or kind.upper != 1.0 or not 1e-7 <= missing < 0.1:
         return 4
     return 3 - int(np.floor(np.log10(missing)))
 
@@ -541,4 +544,4 @@ def show(value: float, kind: Kind, unit: str | None = None) -> str:
     """
     chosen = unit or best_unit(value, kind)
     number = float(from_si(value, chosen, kind))
-    return f"{format_number(number, figures_of(number, chosen))} {pretty_unit(chosen)}".strip()
+    return f"{format_number(number, figures_of(number, chosen, kind))} {pretty_unit(chosen)}".strip()

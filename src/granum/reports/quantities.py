@@ -70,7 +70,7 @@ def in_units(value: Any, parameter: Parameter) -> list[dict[str, str]]:
             {
                 "unit": unit,
                 "label": pretty_unit(unit),
-                "text": format_number(number, figures_of(number, unit)),
+                "text": format_number(number, figures_of(number, unit, parameter.kind)),
                 "full": full.replace(".", ",") if comma else full,
             }
         )
@@ -365,11 +365,11 @@ def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> Chec
     looked_at = next(((p, x) for p, x in figures if _same_quantity(p, x, check)), None)
     if looked_at is None or looked_at[0].kind is None:
         tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
-        digits = figures_of(value, "percent" if tail.endswith("%") else check.unit)
+        digits = 4
     else:
         kind, unit = looked_at[0].kind, looked_at[0].display_unit(np.asarray(looked_at[1], dtype=float))
         value, low, high = (float(from_si(number, unit, kind)) for number in (value, low, high))
-        tail, digits = f" {pretty_unit(unit)}".rstrip(), figures_of(value, unit)
+        tail, digits = f" {pretty_unit(unit)}".rstrip(), figures_of(value, unit, kind)
     far = 1e3 * max(abs(value), 1.0)  # a limit that only says that there is none
     low, high = -math.inf if low <= -far else low, math.inf if high >= far else high
     return CheckRow(_(check.name), check.ok, format_number(value, digits) + tail, _between(low, high) + tail)
