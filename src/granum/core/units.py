@@ -475,7 +475,8 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
     # what is usual per cubic meter stays so: a gas has µg/m³ where a liquid has µg/L
     _top, slash, below = usual.partition("/")
     alike = [u for u in kind.units if slash and u.partition("/")[2] == below]
-    least = 0.01 if slash and not set(alike) - {usual} else 0.1  # 0.08 m/h, not 22 µm/s
+    # 0.08 m/h, not 22 µm/s; 12 s, not 0.2 min
+    least = 1.0 if usual == "min" else 0.01 if slash and not set(alike) - {usual} else 0.1
     for unit in (usual, *alike):
         if not middle or least <= abs(from_si(middle, unit, kind)) < most_of(unit, kind.units):
             return unit

@@ -357,11 +357,7 @@ def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> Chec
     """
     if check.low == check.high == 1.0 and check.unit == "dimensionless" and float(check.value) in (0.0, 1.0):
         return CheckRow(_(check.name), check.ok, _("yes") if check.ok else _("no"), f"= {_('yes')}")
-    value, low, high = (
-        float(check.value),
-        _ruled(float(check.low), check.unit),
-        _ruled(float(check.high), check.unit),
-    )
+    value, (low, high) = float(check.value), _ruled(float(check.low), float(check.high), check.unit)
     looked_at = next(((p, x) for p, x in figures if _same_quantity(p, x, check)), None)
     if looked_at is None or looked_at[0].kind is None:
         tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
@@ -403,9 +399,10 @@ def _allowed(limit: Limit, card: Card) -> str:
         for sign, end in (("≥", limit.low), ("≤", limit.high))
         if isinstance(end, str)
     ]
-    low, high = (
-        -math.inf if isinstance(limit.low, str) else _ruled(limit.low, limit.unit),
-        math.inf if isinstance(limit.high, str) else _ruled(limit.high, limit.unit),
+    low, high = _ruled(
+        -math.inf if isinstance(limit.low, str) else limit.low,
+        math.inf if isinstance(limit.high, str) else limit.high,
+        limit.unit,
     )
     if math.isfinite(low) or math.isfinite(high):
         tail, (low, high) = _shown(limit.unit, _end(low, high), low, high)
@@ -413,9 +410,12 @@ def _allowed(limit: Limit, card: Card) -> str:
     return ", ".join(words)
 
 
-def _ruled(end: float, unit: str) -> float:
-    """An end of a limit without what it leaves to rounding; 0.1 mdarcy is none."""
-    return 0.0 if -SLACK <= end <= (ROUNDING if unit == "dimensionless" else 0.0) else end
+def _ruled(low: float, high: float, unit: str) -> tuple[float, float]:
+    """The ends of a limit without what they leave to rounding; 0.1 mdarcy is none."""
+    if low == -high and 0.0 < high <= SLACK:  # as specified
+        return 0.0, 0.0
+    most = ROUNDING if unit == "dimensionless" else 0.0
+    return 0.0 if -SLACK <= low <= most else low, 0.0 if -SLACK <= high <= most else high
 
 
 def _end(low: float, high: float) -> float:
