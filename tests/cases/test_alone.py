@@ -147,7 +147,7 @@ def test_its_text_is_a_case_file_that_says_the_same() -> None:
         ({"feed.solidflow": "1 kg/s"}, "Did you mean 'feed.solid_flow'?"),
         ({"fed.solid_flow": "1 kg/s"}, "by 'fed'. Known names: feed.solid_flow, wash.solid_flow."),
         ({"slurry.solid_flow": "1 kg/s"}, "Known names: feed.solid_flow, wash.solid_flow."),
-        ({"feed.dust": "1 g/m3"}, "Known names: feed.gas"),
+        ({"feed.dust": "1 g/m3"}, "Known names: feed.dew_point_temperature, feed.gas"),
         ({"aire": "5 m2"}, "Did you mean 'area'?"),
         ({"wash_dissolution": "{law"}, "is no table"),
     ],
