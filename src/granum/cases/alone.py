@@ -36,6 +36,7 @@ from granum.materials.library import session
 from granum.streams.feeding import HUMIDITIES, PHASES
 
 NOTHING = Parameter("nothing")
+FLOWS = ("mass_flow", "solid_flow", "liquid_flow", "gas_flow")
 FIELDS = [name for name in FeedTable.model_fields if name != "to"]
 
 
@@ -100,6 +101,7 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
                     feed.pop(word, None)
     _moisten(mixture, feeds, words or {})
     _one_gas(key, written["unit"][name]["in"], written["feeds"], words or {})
+    _not_empty(thing, feeds)
     _drop_what_is_gone(mixture, feeds, words or {})
     widen(mixture, feeds, words or {})
     _fill_up(mixture, feeds, words or {})
@@ -209,6 +211,26 @@ def _one_gas(
                 ).format(owner=key, word=word),
                 name=word,
             )
+
+
+def _not_empty(thing: Any, feeds: Mapping[str, Mapping[str, Any]]) -> None:
+    """Refuses a stream that the equipment can do without and that is said to be nothing."""
+    for port in set(feeds) & set(thing.optional_inlets()):
+        flows = [value for name, value in feeds[port].items() if name in FLOWS]
+        if flows and all(str(flow).split()[:1] and _zero(str(flow).split()[0]) for flow in flows):
+            raise InputError(
+                _("Nothing flows in at '{port}'. To run without this stream say {port}=\"no\".").format(
+                    port=port
+                ),
+                name=port,
+            )
+
+
+def _zero(number: str) -> bool:
+    try:
+        return float(number.replace(",", ".")) == 0.0
+    except ValueError:
+        return False
 
 
 def _moisten(
