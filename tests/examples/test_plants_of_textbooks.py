@@ -282,6 +282,31 @@ def test_modules_of_an_ultrafiltration_plant(stages: str, area: float, reached: 
     assert run.figure("ultrafiltration.concentration_retentate") == pytest.approx(c, rel=2e-3)
 
 
+@pytest.mark.parametrize("tested", [(0.5, 5.0, 25.0), (25.0, 1.0)])
+def test_modules_from_a_flux_as_measured(tested: tuple[float, ...]) -> None:
+    """The same plant with what its trial measured in place of gel and coefficient, in any order: 20 kg/m³."""
+    run = solved(
+        "filtration.ultrafiltration",
+        area="300.6 m2",
+        stage_count="1",
+        flux_law={
+            "law": "measured_flux",
+            "concentration_retentate": [f"{c} g/L" for c in tested],
+            "filtrate_flux": [f"{20 * math.log(30 / c)} L/m2/h" for c in tested],
+        },
+        pore_diameter="1 nm",
+        solvent="no",
+        mixture={"liquids": "water", "solids": "whey protein"},
+        feed={
+            "liquid_flow": "2.5 m3/h",
+            "solid_flow": "1.25 kg/h",
+            "temperature": "20 degC",
+            "liquid": {"water": 1.0},
+        },
+    )
+    assert run.figure("ultrafiltration.concentration_retentate") == pytest.approx(20.0, rel=2e-3)
+
+
 # -- settling
 # ------------------------------------------------------------------------------------------------------------
 def test_thickener_from_one_curve() -> None:
