@@ -291,8 +291,8 @@ def test_modules_from_a_flux_as_measured(tested: tuple[float, ...]) -> None:
         stage_count="1",
         flux_law={
             "law": "measured_flux",
-            "concentration_retentate": [f"{c} g/L" for c in tested],
-            "filtrate_flux": [f"{20 * math.log(30 / c)} L/m2/h" for c in tested],
+            "concentration_points": [f"{c} g/L" for c in tested],
+            "flux_points": [f"{20 * math.log(30 / c)} L/m2/h" for c in tested],
         },
         pore_diameter="1 nm",
         solvent="no",
@@ -319,8 +319,8 @@ def test_thickener_from_one_curve() -> None:
         underflow_concentration="1200 g/L",
         settling={
             "law": "measured_settling",
-            "solids_concentration": [f"{200 * 900 / h} g/L" for h in height],
-            "settling_velocity": [f"{v} mm/min" for v in fall],
+            "concentration_points": [f"{200 * 900 / h} g/L" for h in height],
+            "settling_velocity_points": [f"{v} mm/min" for v in fall],
         },
         mixture={"solids": "chalk mud"},
         feed={"solid_flow": "400 kg/min", "liquid_flow": "1.95 m3/min"},
@@ -345,8 +345,8 @@ def test_thickener_from_several_jars() -> None:
         underflow_concentration=f"{concentration(1.5)} kg/m3",
         settling={
             "law": "measured_settling",
-            "solids_concentration": [concentration(y) for y in water][::-1],
-            "settling_velocity": fall[::-1],
+            "concentration_points": [concentration(y) for y in water][::-1],
+            "settling_velocity_points": fall[::-1],
         },
         mixture={"solids": "grains"},
         feed={"solid_flow": "1.33 kg/s", "liquid_flow": f"{1.33 * 5} kg/s"},

@@ -16,7 +16,7 @@ from granum.numerics import safe_divide
     "filtrate_flux",
     name="measured_flux",
     source="cheryan1998",
-    equation=r"u \text{ linear in } \ln c \text{ between points}\ (c_i,\ u_i)",
+    equation=r"u(\ln c) \text{ linear between points}\ (c_i,\ u_i)",
     symbols={"concentration_retentate": "c", "filtrate_flux": "u"},
     title="Membrane flux by points",
 )
@@ -32,12 +32,12 @@ class MeasuredFlux(eqx.Module):
     0.0
     """
 
-    concentration_retentate: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]
-    filtrate_flux: Annotated[Speed, Series("points")]
+    concentration_points: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]
+    flux_points: Annotated[Speed, Series("points")]
 
     def __call__(self, concentration_retentate: Concentration) -> Speed:
         """Flux at a concentration."""
-        c, u = jnp.asarray(self.concentration_retentate, float), jnp.asarray(self.filtrate_flux, float)
+        c, u = jnp.asarray(self.concentration_points, float), jnp.asarray(self.flux_points, float)
         order = jnp.argsort(c)
         x, y = jnp.log(c[order]), u[order]
         at = jnp.log(jnp.maximum(jnp.asarray(concentration_retentate, float), 1e-12))

@@ -205,7 +205,7 @@ class HinderedParticles(eqx.Module):
     "settling_velocity",
     name="measured_settling",
     source="coe1916",
-    equation=r"\ln v \text{ linear in } \ln C \text{ between points}\ (C_i,\ v_i)",
+    equation=r"\ln v(\ln C) \text{ linear between points}\ (C_i,\ v_i)",
     symbols={"settling_velocity": "v"},
     title="Settling velocity by points",
 )
@@ -221,12 +221,15 @@ class MeasuredSettling(eqx.Module):
     0.5
     """
 
-    solids_concentration: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]
-    settling_velocity: Annotated[Annotated[Speed, Within(1e-12)], Series("points")]
+    concentration_points: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]
+    settling_velocity_points: Annotated[Annotated[Speed, Within(1e-12)], Series("points")]
 
     def __call__(self, solids_concentration: Concentration) -> Speed:
         """Velocity at a concentration."""
-        C, v = jnp.asarray(self.solids_concentration, float), jnp.asarray(self.settling_velocity, float)
+        C, v = (
+            jnp.asarray(self.concentration_points, float),
+            jnp.asarray(self.settling_velocity_points, float),
+        )
         order = jnp.argsort(C)
         x, y = jnp.log(C[order]), jnp.log(v[order])
         at = jnp.log(jnp.maximum(jnp.asarray(solids_concentration, float), 1e-12))
