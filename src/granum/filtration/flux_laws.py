@@ -17,7 +17,7 @@ from granum.numerics import safe_divide
     name="measured_flux",
     source="cheryan1998",
     equation=r"u(\ln c) \text{ linear between points}\ (c_i,\ u_i)",
-    symbols={"concentration_retentate": "c", "filtrate_flux": "u"},
+    symbols={"concentration_retentate": "c", "filtrate_flux": "u", "concentration_points": "c_i"},
     title="Membrane flux by points",
 )
 class MeasuredFlux(eqx.Module):
@@ -28,8 +28,8 @@ class MeasuredFlux(eqx.Module):
     zero the concentration of the gel. The order of the points does not matter. Thinner than the first it is
     that of the first; thicker than the last it goes on falling as between the last two, to nothing.
 
-    >>> round(MeasuredFlux([10.0, 100.0], [2e-5, 1e-5])(1000.0) * 1e6, 6)
-    0.0
+    >>> round(float(MeasuredFlux([10.0, 100.0], [2e-5, 1e-5])(50.0)) * 1e6, 3)
+    13.01
     """
 
     concentration_points: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]

@@ -217,7 +217,7 @@ class MeasuredSettling(eqx.Module):
     does not matter. Thinner than the first it is that of the first; thicker than the last it goes on falling
     as between the last two.
 
-    >>> round(MeasuredSettling([100.0, 400.0], [1e-3, 2.5e-4])(200.0) * 1e3, 6)
+    >>> round(float(MeasuredSettling([100.0, 400.0], [1e-3, 2.5e-4])(200.0)) * 1e3, 6)
     0.5
     """
 
