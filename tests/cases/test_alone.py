@@ -276,3 +276,17 @@ def test_size_classes_that_were_said_are_left() -> None:
     words = {"feed.sizes.size_modulus": "300 mm", "mixture.sizes.largest": "204.8 mm"}
     with pytest.raises(GranumError, match="coarser than"):
         read_text(case_text("comminution.cone_crusher", words))
+
+
+def test_a_humidity_stands_for_the_vapor_of_the_example() -> None:
+    feed = tomllib.loads(case_text("drying.rotary_dryer", {"gas.humidity_ratio": "12 g/kg"}))["feeds"]["gas"]
+    assert feed["humidity_ratio"] == "12 g/kg"
+    assert "gas" not in feed
+    other = tomllib.loads(case_text("conveying.pneumatic_conveyor", {"gas.dew_point_temperature": "5 degC"}))
+    assert "relative_humidity" not in other["feeds"]["gas"]
+
+
+@pytest.mark.parametrize("nothing", [0, "0 kg/h", "0,0 t/h"])
+def test_an_optional_stream_of_nothing_is_told_how_to_be_left_out(nothing: object) -> None:
+    with pytest.raises(GranumError, match='wash="no"'):
+        case_text(DRUM, {"wash.liquid_flow": nothing})

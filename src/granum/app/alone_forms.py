@@ -96,7 +96,8 @@ def _feed(
 ) -> tuple[list[dict[str, Any]], dict[str, str]]:
     """Fields of a stream that enters: what it is said by now, and its state."""
     rows, values = [], {}
-    offered = {"temperature", "pressure", *(HUMIDITIES if any(h in feed for h in HUMIDITIES) else ())}
+    moist = "gas_flow" in feed and set(mixture.get("gases", ())) & set(mixture.get("liquids", ()))
+    offered = {"temperature", "pressure", *(HUMIDITIES if moist else ())}
     for name, kind in FEED_KINDS.items():
         if name in feed or name in offered:
             usual = {"temperature": 298.15, "pressure": 101325.0}.get(name, "")
