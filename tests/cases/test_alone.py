@@ -147,7 +147,7 @@ def test_its_text_is_a_case_file_that_says_the_same() -> None:
         ({"feed.solidflow": "1 kg/s"}, "Did you mean 'feed.solid_flow'?"),
         ({"fed.solid_flow": "1 kg/s"}, "by 'fed'. Known names: feed.solid_flow, wash.solid_flow."),
         ({"slurry.solid_flow": "1 kg/s"}, "Known names: feed.solid_flow, wash.solid_flow."),
-        ({"feed.dust": "1 g/m3"}, "Known names: feed.gas"),
+        ({"feed.dust": "1 g/m3"}, "Known names: feed.dew_point_temperature, feed.gas"),
         ({"aire": "5 m2"}, "Did you mean 'area'?"),
         ({"wash_dissolution": "{law"}, "is no table"),
     ],
@@ -276,3 +276,17 @@ def test_size_classes_that_were_said_are_left() -> None:
     words = {"feed.sizes.size_modulus": "300 mm", "mixture.sizes.largest": "204.8 mm"}
     with pytest.raises(GranumError, match="coarser than"):
         read_text(case_text("comminution.cone_crusher", words))
+
+
+def test_a_humidity_stands_for_the_vapor_of_the_example() -> None:
+    feed = tomllib.loads(case_text("drying.rotary_dryer", {"gas.humidity_ratio": "12 g/kg"}))["feeds"]["gas"]
+    assert feed["humidity_ratio"] == "12 g/kg"
+    assert "gas" not in feed
+    other = tomllib.loads(case_text("conveying.pneumatic_conveyor", {"gas.dew_point_temperature": "5 degC"}))
+    assert "relative_humidity" not in other["feeds"]["gas"]
+
+
+@pytest.mark.parametrize("nothing", [0, "0 kg/h", "0,0 t/h"])
+def test_an_optional_stream_of_nothing_is_told_how_to_be_left_out(nothing: object) -> None:
+    with pytest.raises(GranumError, match='wash="no"'):
+        case_text(DRUM, {"wash.liquid_flow": nothing})

@@ -179,3 +179,12 @@ def test_what_a_membrane_cannot_do_is_said() -> None:
     weak = plant("reverse_osmosis", pressure_drop="20 bar")
     assert not all(check.ok for check in weak.units["reverse_osmosis"].checks)
     assert weak.figure("reverse_osmosis.rejection") < 0.8
+
+
+def test_a_flux_by_two_points_is_the_line_of_the_gel() -> None:
+    """u = k ln(c_g/c) through two of its points, nothing beyond the gel, level below the thinnest tested."""
+    k, gel = 5e-6, 250.0
+    law = gr.filtration.MeasuredFlux([100.0, 10.0], [k * np.log(gel / 100.0), k * np.log(gel / 10.0)])
+    found = [float(law(c)) for c in (1.0, 10.0, 50.0, 200.0, gel, 400.0)]
+    wanted = [k * np.log(gel / c) for c in (10.0, 10.0, 50.0, 200.0)]
+    assert found == pytest.approx([*wanted, 0.0, 0.0], abs=1e-15)

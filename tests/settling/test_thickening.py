@@ -8,7 +8,14 @@ from scipy.special import lambertw
 
 from granum.settling import flux
 from granum.settling.formulas import sludge_index, thickening
-from granum.settling.velocities import Cole, HinderedParticles, RichardsonZakiConcentration, Takacs, Vesilind
+from granum.settling.velocities import (
+    Cole,
+    HinderedParticles,
+    MeasuredSettling,
+    RichardsonZakiConcentration,
+    Takacs,
+    Vesilind,
+)
 
 SLUDGE = Vesilind(5 / 3600, 0.5)
 
@@ -108,3 +115,10 @@ def test_sludge_indices():
     poor, good = (sludge_index.vesilind_velocity_hartel_popel(x) for x in (0.25, 0.08))
     assert poor.vesilind_velocity < good.vesilind_velocity
     assert poor.vesilind_coefficient > good.vesilind_coefficient
+
+
+def test_measured_velocities_keep_to_their_points_and_fall_beyond() -> None:
+    """Points of a power law give it back between and beyond, in any order; thinner it stays."""
+    law = MeasuredSettling([400.0, 100.0, 200.0], [1e-3 / 16, 1e-3, 1e-3 / 4])
+    found = [float(law(c)) for c in (50.0, 100.0, 141.4213562, 200.0, 800.0)]
+    assert found == pytest.approx([1e-3, 1e-3, 5e-4, 2.5e-4, 1e-3 / 64], rel=1e-6)

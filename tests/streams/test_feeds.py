@@ -82,6 +82,35 @@ def test_a_feed_may_be_a_volume() -> None:
         feed(WET, solid_flow="1 m3/h", solid=quartz, sizes=EVEN)
 
 
+@pytest.mark.parametrize(
+    ("word", "value", "ratio", "within"),
+    [
+        ("humidity_ratio", "10 g/kg", 0.01, 1e-12),  # as it is told
+        ("humidity_ratio", 0.0, 0.0, 1e-12),
+        ("dew_point_temperature", "14 degC", 0.00999, 0.003),  # ASHRAE: 9.99 g/kg saturated at 14 °C
+        ("wet_bulb_temperature", "17 degC", 0.00996, 0.005),  # of 22.2 °C: 60 % by the course notes
+    ],
+)
+def test_a_humidity_in_other_words(word: str, value: object, ratio: float, within: float) -> None:
+    made = feed(WET, temperature="22.2 degC", gas_flow=2.0, **{word: value})
+    vapor = WET.index("gases", "water")
+    assert float(made.gas.sum() - made.gas[vapor]) == 2.0
+    assert float(made.gas[vapor]) / 2.0 == pytest.approx(ratio, rel=within, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ({"humidity_ratio": "50 g/kg"}, "at most"),
+        ({"humidity_ratio": "5 g/kg", "relative_humidity": "50 %"}, "one value says"),
+        ({"dew_point_temperature": "30 degC"}, "more than saturates"),
+    ],
+)
+def test_a_humidity_that_cannot_be_is_refused(words: dict[str, str], told: str) -> None:
+    with pytest.raises(InputError, match=told):
+        feed(WET, temperature="20 degC", gas_flow=2.0, **words)
+
+
 @pytest.mark.parametrize("gases", [("nitrogen", "ethanol"), ("ethanol", "nitrogen")])
 def test_relative_humidity_is_that_of_the_pair(gases: tuple[str, str]) -> None:
     """Half the vapor pressure of ethanol at 20 °C: some 0.05 kg per kg of nitrogen, not the 0.007 of water in

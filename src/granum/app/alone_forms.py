@@ -19,6 +19,7 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.sources import cite
 from granum.materials.library import session
+from granum.streams.feeding import HUMIDITIES
 from granum.streams.names import port_label
 
 LABELS = {"solid_flow": "solid flow", "liquid_flow": "liquid flow", "gas_flow": "gas flow"}
@@ -95,8 +96,10 @@ def _feed(
 ) -> tuple[list[dict[str, Any]], dict[str, str]]:
     """Fields of a stream that enters: what it is said by now, and its state."""
     rows, values = [], {}
+    moist = "gas_flow" in feed and set(mixture.get("gases", ())) & set(mixture.get("liquids", ()))
+    offered = {"temperature", "pressure", *(HUMIDITIES if moist else ())}
     for name, kind in FEED_KINDS.items():
-        if name in feed or name in ("temperature", "pressure"):
+        if name in feed or name in offered:
             usual = {"temperature": 298.15, "pressure": 101325.0}.get(name, "")
             p = Parameter(name, KINDS[kind], default=usual or None)
             row = _row(f"{port}.{name}", p, _(LABELS[name]) if name in LABELS else "")

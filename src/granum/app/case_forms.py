@@ -33,6 +33,7 @@ from granum.flowsheet.utilities import price_parameter
 from granum.materials.library import session
 from granum.reports.quantities import value_text
 from granum.reports.utilities import carrier_label
+from granum.streams.feeding import HUMIDITIES
 from granum.streams.names import port_label, pretty, share_label
 
 PARTS = ("liquids", "solids", "gases")
@@ -44,7 +45,7 @@ FEED_KINDS = {
     "moisture_dry_basis": "MoistureDryBasis",
     "moisture_wet_basis": "MoistureWetBasis",
     "gas_flow": "MassFlow",
-    "relative_humidity": "Fraction",
+    **HUMIDITIES,
     "temperature": "Temperature",
     "pressure": "Pressure",
 }
@@ -313,7 +314,7 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
     else:
         offered |= {f"{phase}_flow" for phase in ("solid", "liquid") if listed(mixture, f"{phase}s")}
     if listed(mixture, "gases"):
-        offered |= {"gas_flow", "relative_humidity"}
+        offered |= {"gas_flow", *HUMIDITIES}
     rows, values = [], {name: case_value(table[name]) for name in FEED_KINDS if name in table}
     for name, kind in FEED_KINDS.items():
         if name in offered:
@@ -324,7 +325,7 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
     for phase, species in (("liquid", "liquids"), ("solid", "solids"), ("gas", "gases")):
         names, shares = listed(mixture, species), table.get(phase)
         flows = phase in table or f"{phase}_flow" in table or (totals and phase != "gas")
-        if len(names) < 2 or not flows or ("relative_humidity" in table and phase == "gas"):
+        if len(names) < 2 or not flows or (phase == "gas" and any(h in table for h in HUMIDITIES)):
             continue
         for one in names[1:]:
             row = form_row(Parameter(f"{phase}.{one}", KINDS["MassFraction"], default=None))

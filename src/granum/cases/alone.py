@@ -33,9 +33,10 @@ from granum.core.stand_ins import stands_for
 from granum.core.words import plain
 from granum.flowsheet.run import Line
 from granum.materials.library import session
-from granum.streams.feeding import PHASES
+from granum.streams.feeding import HUMIDITIES, PHASES
 
 NOTHING = Parameter("nothing")
+FLOWS = ("mass_flow", "solid_flow", "liquid_flow", "gas_flow")
 FIELDS = [name for name in FeedTable.model_fields if name != "to"]
 
 
@@ -98,7 +99,9 @@ def tables(key: str, words: Mapping[str, Any] | None = None) -> dict[str, Any]:
             for word in ("liquid_flow", "solids_mass_fraction"):
                 if f"{port}.{word}" not in (words or {}):
                     feed.pop(word, None)
+    _moisten(mixture, feeds, words or {})
     _one_gas(key, written["unit"][name]["in"], written["feeds"], words or {})
+    _not_empty(thing, feeds)
     _drop_what_is_gone(mixture, feeds, words or {})
     widen(mixture, feeds, words or {})
     _fill_up(mixture, feeds, words or {})
@@ -209,6 +212,45 @@ def _one_gas(
                 ).format(owner=key, word=word),
                 name=word,
             )
+
+
+def _not_empty(thing: Any, feeds: Mapping[str, Mapping[str, Any]]) -> None:
+    """Refuses a stream that the equipment can do without and that is said to be nothing."""
+    for port in set(feeds) & set(thing.optional_inlets()):
+        flows = [value for name, value in feeds[port].items() if name in FLOWS]
+        if flows and all(str(flow).split()[:1] and _zero(str(flow).split()[0]) for flow in flows):
+            raise InputError(
+                _("Nothing flows in at '{port}'. To run without this stream say {port}=\"no\".").format(
+                    port=port
+                ),
+                name=port,
+            )
+
+
+def _zero(number: str) -> bool:
+    try:
+        return float(number.replace(",", ".")) == 0.0
+    except ValueError:
+        return False
+
+
+def _moisten(
+    mixture: Mapping[str, Any], feeds: Mapping[str, dict[str, Any]], said: Mapping[str, Any]
+) -> None:
+    """A humidity that was said stands for that of the example and for the share of its vapor."""
+    for port, feed in feeds.items():
+        own = [word for word in HUMIDITIES if said.get(f"{port}.{word}", "") != ""]
+        if not own:
+            continue
+        for word in set(HUMIDITIES) - set(own):
+            feed.pop(word, None)
+        if isinstance(feed.get("gas"), dict) and not any(
+            word == f"{port}.gas" or word.startswith(f"{port}.gas.") for word in said
+        ):
+            dry = {n: v for n, v in feed.pop("gas").items() if n not in mixture.get("liquids", ())}
+            if len(dry) > 1:
+                shares = {n: float(convert(v, Parameter(n, KINDS["MassFraction"]))) for n, v in dry.items()}
+                feed["gas"] = {n: share / sum(shares.values()) for n, share in shares.items()}
 
 
 def _drop_what_is_gone(

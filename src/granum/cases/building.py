@@ -52,6 +52,7 @@ from granum.core.i18n import _
 from granum.flowsheet.stream_figures import FIGURES, PHASES, told_of
 from granum.flowsheet.symbols import word_of
 from granum.materials.library import session
+from granum.streams.feeding import HUMIDITIES
 from granum.streams.names import pretty
 
 __all__ = [
@@ -303,7 +304,7 @@ def completed(case: str, feed: str) -> str:
         names = listed(mixture, species)
         if not flows[phase] or len(names) < 2 or phase in table:
             continue
-        if phase == "gas" and "relative_humidity" in table:
+        if phase == "gas" and any(word in table for word in HUMIDITIES):
             continue
         first = next((n for n in names if n != crystal), names[0]) if phase == "solid" else names[0]
         shares = {name: "100 %" if name == first else "0 %" for name in names}

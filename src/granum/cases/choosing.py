@@ -2,10 +2,11 @@
 numbers of the stream.
 
 Dryers are held against ``drying.choose``, what parts solid from liquid against
-``filtration.separator_choice``, crystallizers against ``crystallization.choose``; mills have no ranked card.
-What such a card asks and no stream tells, such as what the product bears, stays as the card has it. Whether a
-feed is a liquid, a paste or a powder follows from its size and its share of liquid: our own estimate, which
-the card shows and everybody can change there.
+``filtration.separator_choice``, crystallizers against ``crystallization.choose``; the checks of mills are of
+size classes, and say nothing against the mill (``comminution.mill_choice`` ranks these). What such a card
+asks and no stream tells, such as what the product bears, stays as the card has it. Whether a feed is a
+liquid, a paste or a powder follows from its size and its share of liquid: our own estimate, which the card
+shows and everybody can change there.
 """
 
 from __future__ import annotations

@@ -76,6 +76,15 @@ class FeedTable(_Strict):
     relative_humidity: Quantity | None = Field(
         default=None, description="of a gas feed: sets its vapor; 'gas_flow' is then dry gas"
     )
+    humidity_ratio: Quantity | None = Field(
+        default=None, description="vapor per dry gas, in place of 'relative_humidity'"
+    )
+    wet_bulb_temperature: Quantity | None = Field(
+        default=None, description="of a gas feed, in place of 'relative_humidity'"
+    )
+    dew_point_temperature: Quantity | None = Field(
+        default=None, description="of a gas feed, in place of 'relative_humidity'"
+    )
     sizes: SizeTable | None = None
 
 

@@ -99,6 +99,10 @@ from granum.comminution.population import (
     ResidenceTimeLaw as ResidenceTimeLaw,
     TanksInSeries as TanksInSeries,
 )
+from granum.comminution.selection import (
+    Mills as Mills,
+    mill_choice as mill_choice,
+)
 from granum.comminution.transients import (
     MillResponse as MillResponse,
     mill_response as mill_response,

@@ -93,6 +93,9 @@ from granum.filtration.equipment.thickening import (
     ThickeningFigures as ThickeningFigures,
     ThickeningFilter as ThickeningFilter,
 )
+from granum.filtration.flux_laws import (
+    MeasuredFlux as MeasuredFlux,
+)
 from granum.filtration.formulas.adsorption import (
     adsorption_rate_lodewyckx as adsorption_rate_lodewyckx,
     breakthrough_fraction_bohart_adams as breakthrough_fraction_bohart_adams,

@@ -39,6 +39,7 @@ class Membrane(NamedTuple):
         liquid; the first, the solvent, is not asked.
     through: share of each species and size class of solid that passes with the liquid it is in.
     gel: solids and held-back solute per volume of liquid at which a gel forms, kg/m³; None where none does.
+    law: the flux over these, as measured, in place of all others.
     """
 
     area: Any
@@ -48,6 +49,7 @@ class Membrane(NamedTuple):
     passage: Callable[[Any, Any], Any]
     through: Any
     gel: Any = None
+    law: Callable[[Any], Any] | None = None
 
 
 class Staged(NamedTuple):
@@ -122,6 +124,8 @@ def staged(feed: Stream, membrane: Membrane) -> Staged:
             held = matter(retentate, membrane)
             room = jnp.log(membrane.gel / jnp.maximum(held, 1e-12 * membrane.gel))
             reached = jnp.minimum(reached, membrane.mass_transfer_coefficient * room)
+        if membrane.law is not None:
+            reached = membrane.law(matter(retentate, membrane))
         return reached - flux
 
     most = MOST * volumes[0] / membrane.area

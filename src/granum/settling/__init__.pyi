@@ -189,6 +189,7 @@ from granum.settling.velocities import (
     Cole as Cole,
     Diehl as Diehl,
     HinderedParticles as HinderedParticles,
+    MeasuredSettling as MeasuredSettling,
     RichardsonZakiConcentration as RichardsonZakiConcentration,
     Takacs as Takacs,
     Vesilind as Vesilind,

@@ -13,8 +13,18 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import law
-from granum.core.kinds import Concentration, Density, Law, PositiveNumber, Ratio, Speed, VolumePerMass
-from granum.numerics import safe_power
+from granum.core.kinds import (
+    Concentration,
+    Density,
+    Law,
+    PositiveNumber,
+    Ratio,
+    Series,
+    Speed,
+    VolumePerMass,
+    Within,
+)
+from granum.numerics import safe_divide, safe_power
 from granum.particles.formulas.hindered import hindrance_richardson_zaki
 
 
@@ -189,3 +199,39 @@ class HinderedParticles(eqx.Module):
         """Velocity at a concentration."""
         share = jnp.clip(jnp.asarray(solids_concentration) / self.solid_density, 1e-12, 1.0 - 1e-9)
         return self.terminal_velocity * self.hindrance(share, self.reynolds)
+
+
+@law(
+    "settling_velocity",
+    name="measured_settling",
+    source="coe1916",
+    equation=r"\ln v(\ln C) \text{ linear between points}\ (C_i,\ v_i)",
+    symbols={"settling_velocity": "v"},
+    title="Settling velocity by points",
+)
+class MeasuredSettling(eqx.Module):
+    """Settling velocity as measured: that of each concentration that was tested, a power law from one to the
+    next.
+
+    From Coe and Clevenger's several jars, or read from one curve by Kynch's tangents. The order of the points
+    does not matter. Thinner than the first it is that of the first; thicker than the last it goes on falling
+    as between the last two.
+
+    >>> round(float(MeasuredSettling([100.0, 400.0], [1e-3, 2.5e-4])(200.0)) * 1e3, 6)
+    0.5
+    """
+
+    concentration_points: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]
+    settling_velocity_points: Annotated[Annotated[Speed, Within(1e-12)], Series("points")]
+
+    def __call__(self, solids_concentration: Concentration) -> Speed:
+        """Velocity at a concentration."""
+        C, v = (
+            jnp.asarray(self.concentration_points, float),
+            jnp.asarray(self.settling_velocity_points, float),
+        )
+        order = jnp.argsort(C)
+        x, y = jnp.log(C[order]), jnp.log(v[order])
+        at = jnp.log(jnp.maximum(jnp.asarray(solids_concentration, float), 1e-12))
+        fall = jnp.minimum(safe_divide(y[-1] - y[-2], x[-1] - x[-2], 0.0), 0.0) if x.size > 1 else 0.0
+        return jnp.exp(jnp.interp(at, x, y) + fall * jnp.maximum(at - x[-1], 0.0))

@@ -34,8 +34,16 @@ KIND = {
     "moisture_dry_basis": "MoistureDryBasis",
     "moisture_wet_basis": "MoistureWetBasis",
 }
+HUMIDITIES = {
+    "relative_humidity": "RelativeHumidity",
+    "humidity_ratio": "HumidityRatio",
+    "wet_bulb_temperature": "Temperature",
+    "dew_point_temperature": "Temperature",
+}
+"""Words of a gas feed that say how much vapor its dry gas carries, one of them."""
 PRESSURE = replace(KINDS["Pressure"], open_lower=True)
 """Of a feed: nothing flows out of a vacuum."""
+FOG = 1e-9  # kg of drops per dry gas, of rounding at saturation
 LEAST_INSIDE = 0.98  # of a feed that its size classes must hold
 
 
@@ -64,6 +72,9 @@ def feed(
     gas_flow: Given = None,
     gas: Mapping[str, Given] | None = None,
     relative_humidity: Given = None,
+    humidity_ratio: Given = None,
+    wet_bulb_temperature: Given = None,
+    dew_point_temperature: Given = None,
     sizes: Any = None,
     where: str = "",
 ) -> Stream:
@@ -78,8 +89,8 @@ def feed(
     moisture_dry_basis, moisture_wet_basis: of a moist solid, liquid per mass of dry or of wet solid, in place
         of ``liquid_flow`` or ``solids_mass_fraction``.
     liquid, solid, gas: mass fractions by name; need not be given where there is one species.
-    relative_humidity: of a gas, sets its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it
-        where there are several.
+    relative_humidity, humidity_ratio, wet_bulb_temperature, dew_point_temperature: of a gas, one of them sets
+        its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it where there are several.
     sizes: of the solid: a law of size distribution, the word for one with its parameters (``{"law":
         "rosin_rammler", …}``), or ``{"fractions": […]}``. where: what a message calls this feed.
     """
@@ -176,19 +187,26 @@ def feed(
         by_class = solids * shares("solids", solid)[:, None] * fractions[None, :]
         spread = by_class.reshape(by_class.shape + (1,) * len(mixture.axes)) * np.ones(mixture.solid_shape)
         stream = stream.replace(solid=jnp.asarray(spread / int(np.prod(mixture.solid_shape[2:]))))
+    moist = {
+        "relative_humidity": relative_humidity,
+        "humidity_ratio": humidity_ratio,
+        "wet_bulb_temperature": wet_bulb_temperature,
+        "dew_point_temperature": dew_point_temperature,
+    }
+    humidity = {n: quantity(v, HUMIDITIES[n], n) for n, v in moist.items() if v is not None}
+    if len(humidity) > 1:
+        raise InputError(
+            _("{where}: one value says how much vapor the gas carries; given: {names}.").format(
+                where=where, names=", ".join(f"'{n}'" for n in humidity)
+            )
+        )
     if gas_flow is not None:
         normal = of_normal_gas(gas_flow) if isinstance(gas_flow, str) else None
         flow, volume = amount(normal or gas_flow, "gas_flow")
-        if relative_humidity is None:
+        if not humidity:
             stream = stream.replace(gas=jnp.asarray(flow * shares("gases", gas)))
         else:
-            stream = _humid(
-                stream,
-                flow,
-                shares("gases", gas) if gas else None,
-                quantity(relative_humidity, "RelativeHumidity", "relative_humidity"),
-                where,
-            )
+            stream = _humid(stream, flow, shares("gases", gas) if gas else None, humidity, where)
         if volume:
             standard = {"temperature": ZERO_CELSIUS, "pressure": STANDARD_ATMOSPHERE}
             there = stream if normal is None else stream.replace(**standard)
@@ -210,7 +228,7 @@ def _dry(name: str, value: float) -> float:
 
 
 def _humid(
-    stream: Stream, dry: float, of_dry: np.ndarray | None, relative_humidity: float, where: str
+    stream: Stream, dry: float, of_dry: np.ndarray | None, told: Mapping[str, float], where: str
 ) -> Stream:
     """The stream with so much dry gas and the vapor that it then holds, of whatever pair its mixture has."""
     from granum.humid_gas import state
@@ -220,31 +238,45 @@ def _humid(
         humid = HumidMixture(stream.mixture)
     except GranumError as problem:
         raise InputError(f"{where}: {problem.message}") from None
+    ((name, value),) = told.items()
     carriers = [g.name for g in stream.mixture.gases if g.name != humid.solvent]
     if of_dry is None and len(carriers) > 1:
         raise InputError(
-            _(
-                "{where}: 'relative_humidity' with several dry gases needs the shares of these in "
-                "'gas': {names}."
-            ).format(where=where, names=", ".join(carriers))
+            _("{where}: '{name}' with several dry gases needs the shares of these in 'gas': {names}.").format(
+                where=where, name=name, names=", ".join(carriers)
+            )
         )
-    humidity = state(
-        temperature=float(stream.temperature),
-        pressure=float(stream.pressure),
-        relative_humidity=relative_humidity,
-        pair=humid.pair,
-    ).humidity_ratio
+    try:
+        gas = state(
+            temperature=float(stream.temperature), pressure=float(stream.pressure), pair=humid.pair, **told
+        )
+    except GranumError as problem:
+        raise InputError(f"{where}: {problem.message}") from None
+    if gas.condensate_ratio > FOG:
+        raise InputError(
+            _(
+                "{where}: at {temperature} this gas holds at most {most} of vapor per dry gas, not {value}; "
+                "give less, or a warmer gas."
+            ).format(
+                where=where,
+                temperature=show(float(stream.temperature), KINDS["Temperature"]),
+                most=show(gas.humidity_ratio - gas.condensate_ratio, KINDS["HumidityRatio"]),
+                value=show(gas.humidity_ratio, KINDS["HumidityRatio"]),
+            ),
+            name=name,
+        )
     if of_dry is None:
         of_dry = np.array([float(g.name != humid.solvent) for g in stream.mixture.gases])
     if of_dry[humid.vapor]:
         raise InputError(
-            _("{where}: 'relative_humidity' says how much vapor there is; leave {name} out of 'gas'.").format(
-                where=where, name=humid.solvent
+            _("{where}: '{said}' says how much vapor there is; leave {name} out of 'gas'.").format(
+                where=where, said=name, name=humid.solvent
             )
         )
     flows, masses = dry * of_dry, np.asarray(humid.molar_masses)
-    y = float(once(humid.pair.fraction, humidity))
-    flows[humid.vapor] = np.sum(flows / masses) * y / (1.0 - y) * masses[humid.vapor]
+    y = float(once(humid.pair.fraction, gas.humidity_ratio))
+    vapor = np.sum(flows / masses) * y / (1.0 - y) * masses[humid.vapor]
+    flows[humid.vapor] = dry * value if name == "humidity_ratio" else vapor  # a mass ratio as it is told
     return stream.replace(gas=jnp.asarray(flows))
 
 

@@ -7,13 +7,15 @@ const NOTHING = { vary: '', of: '', so_that: '', equals: '', lower: '', upper: '
 /** Figures of a feed that can be sought: a share whose phase has no other, or dry gas that is given moist, cannot. */
 const FED = /^(temperature|pressure|mass_flow|liquid_flow|solid_flow|gas_flow|(liquid|solid|gas)\..+)$/;
 
+const HUMID = ['relative_humidity', 'humidity_ratio', 'wet_bulb_temperature', 'dew_point_temperature'];
+
 const sought = (form) => [
   ...Object.entries(form.units).flatMap(([name, unit]) => given(name, unit, (p) => p.kind && !p.series)),
   ...Object.entries(form.feeds).flatMap(([name, feed]) =>
     given(
       name,
       feed,
-      (p) => p.kind && FED.test(p.name) && !(p.name === 'gas_flow' && feed.values.relative_humidity),
+      (p) => p.kind && FED.test(p.name) && !(p.name === 'gas_flow' && HUMID.some((word) => feed.values[word])),
     ),
   ),
 ];

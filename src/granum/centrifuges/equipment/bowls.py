@@ -22,7 +22,7 @@ from granum.centrifuges.formulas.mechanics import (
 )
 from granum.core.errors import InputError
 from granum.core.i18n import _ as translated
-from granum.core.kinds import Length, OpenFraction, PositiveNumber, Stress, TurningSpeed
+from granum.core.kinds import Density, Length, OpenFraction, PositiveNumber, Stress, TurningSpeed
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.settling.equipment.gravity import (
@@ -105,7 +105,8 @@ class Bowl(Unit):
     radius (with the drag of their true Reynolds number), hindered by one another; drops count as rigid
     spheres. ``sediment_solids_fraction`` is the volume fraction of solid in what is discharged, from a spin
     test; ``sigma_efficiency`` derates the machine against its theory. ``bowl_radius`` is that of the wall,
-    whose thickness is about a tenth of it unless given.
+    whose thickness is about a tenth of it unless given, and which is of steel unless ``wall_density`` says
+    otherwise.
     """
 
     radius_inner: Length
@@ -117,6 +118,7 @@ class Bowl(Unit):
     bowl_radius: Length | None = None
     wall_thickness: Length | None = None
     stress_allowed: Stress = 3e8
+    wall_density: Density = 7850.0
 
     utilities: ClassVar[Utilities] = DRIVE
 
@@ -207,7 +209,7 @@ class Bowl(Unit):
             self.rotation_speed,
             jnp.where(some, slurry, feed.liquid_density),
         )
-        return hoop_stress_bowl(self.wall, self.thickness, self.rotation_speed, pressure)
+        return hoop_stress_bowl(self.wall, self.thickness, self.rotation_speed, pressure, self.wall_density)
 
     def measured_bowl(self, feed: Stream, figures: Any) -> dict[str, Any]:
         """Numbers for the limits that machines share."""

@@ -204,7 +204,12 @@ class Tube(Bowl):
     def critical(self, feed: Stream) -> Any:
         """First critical speed, rad/s."""
         return critical_speed_bowl(
-            self.bowl_length, self.wall, self.radius_inner, self.thickness, feed.liquid_density
+            self.bowl_length,
+            self.wall,
+            self.radius_inner,
+            self.thickness,
+            feed.liquid_density,
+            self.wall_density,
         )
 
     def space(self, given: Any) -> Any:

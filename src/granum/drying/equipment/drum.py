@@ -137,7 +137,8 @@ class DrumDryer(Unit):
             self.critical_moisture,
             self.equilibrium_moisture,
         )
-        dryness = jnp.clip((self.critical_moisture - X2) / self.critical_moisture, 0.0, 1.0)
+        below = jnp.asarray(self.critical_moisture) - X2
+        dryness = jnp.clip(safe_divide(below, self.critical_moisture, 0.0), 0.0, 1.0)
         T2 = boiling + dryness * (wall - boiling)
         return {
             "boiling": boiling,

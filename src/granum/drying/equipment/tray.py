@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax.core import Tracer
 
 from granum.core import equipment
-from granum.core.errors import ApplicabilityError, ConvergenceError
+from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -33,6 +33,7 @@ from granum.core.kinds import (
     Speed,
     Temperature,
     Time,
+    Within,
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
@@ -61,6 +62,11 @@ _UNSOLVED = (
     "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation "
     "agree: give hotter air, or less radiated heat."
 )
+_STARVED = (
+    "The air over the trays does not carry the heat of that drying rate: give faster or hotter air, a wider "
+    "gap, or shorter trays."
+)
+PositiveMassFlux = Annotated[MassFlux, Within(1e-9)]
 
 
 class TrayDried(NamedTuple):
@@ -124,8 +130,10 @@ class TrayDryer(Unit):
     while the surface is wet at its wet bulb. Below the critical moisture the flux falls in a straight line to
     equilibrium. The heat transfer coefficient follows from the air speed unless it is given;
     ``radiated_heat`` is infrared or microwave heat per area that evaporates besides it. Trays dry from above,
-    and from below too when ``sides`` is 2. Feed and gas flows are means over the cycle; the product leaves at
-    the temperature of the air. ``batch`` follows a load in time, cell by cell along the air.
+    and from below too when ``sides`` is 2. ``drying_rate_constant``, the flux of the wet tray as measured,
+    takes the place of transfer coefficient and radiated heat. Feed and gas flows are means over the cycle;
+    the product leaves at the temperature of the air. ``batch`` follows a load in time, cell by cell along the
+    air.
     """
 
     temperature_inlet: Temperature
@@ -143,6 +151,7 @@ class TrayDryer(Unit):
     dead_time: Time = 1800.0
     heat_loss_share: Fraction = 0.0
     temperature_limit: Temperature | None = None
+    drying_rate_constant: PositiveMassFlux | None = None
 
     limits: ClassVar[Limits] = {
         "speed": Limit("air speed over the trays", 0.5, 8.0, "m/s", "treybal1980, ch. 12"),
@@ -189,6 +198,8 @@ class TrayDryer(Unit):
         )
         unsolved(wet.converged, type(self).card, reason=_UNSOLVED)
         Tw = wet.value
+        if self.drying_rate_constant is not None:
+            h = self._from_rate(T, Tw, flux, c, humid.heat_of_vaporization(Tw))
         end = temperature_outlet_tray(T, Tw, h * self.sides, flux, self.tray_length, self.tray_gap, c)
         mean = flux * c * self.tray_gap * (T - end) / self.tray_length  # W per tray area, both sides
         N = (mean + self.radiated_heat) / humid.heat_of_vaporization(Tw)
@@ -210,6 +221,27 @@ class TrayDryer(Unit):
             "flux": flux,
             "water": water,
         }
+
+    def _from_rate(self, T: Any, Tw: Any, flux: Any, c: Any, latent: Any) -> Any:
+        """The transfer coefficient with which a tray dries at the measured rate; its wet bulb, without heat
+        by other ways, is the same for every coefficient.
+        """
+        air = flux * self.tray_gap * c
+        cooled = safe_divide(self.drying_rate_constant * latent * self.tray_length, air * (T - Tw))
+        unsolved(cooled < 1.0, type(self).card, reason=_STARVED)
+        return -jnp.log1p(-jnp.minimum(cooled, 1.0 - 1e-9)) * air / (self.tray_length * self.sides)
+
+    def __check_init__(self) -> None:
+        heat = self.radiated_heat
+        apart = isinstance(heat, float | int) and heat != 0
+        if self.drying_rate_constant is not None and (self.heat_transfer_coefficient is not None or apart):
+            raise InputError(
+                _(
+                    "'drying_rate_constant' says how fast the wet tray dries by all ways together: leave out "
+                    "'heat_transfer_coefficient' and 'radiated_heat'."
+                ),
+                name="drying_rate_constant",
+            )
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         feed, gas = inlets["feed"], inlets["gas"]

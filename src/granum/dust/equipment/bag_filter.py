@@ -17,8 +17,10 @@ from granum.core.kinds import (
     Concentration,
     Fraction,
     Law,
+    Length,
     MassPerAreaOrZero,
     MoleFraction,
+    PositiveNumber,
     Pressure,
     PressureDrop,
     Speed,
@@ -40,12 +42,14 @@ from granum.streams.utilities import AREA, FANNED, compressed, fanned
 MANUAL = "turner1998"
 PULSES = 0.002  # of the gas by volume, as free air
 SLOWEST = 1e-9  # m/s
+ROUNDING = 1e-9  # of a bag
 
 
 class BagFigures(NamedTuple):
     """Figures of a bag filter."""
 
     superficial_velocity: Speed
+    bag_number: PositiveNumber
     pressure_drop: PressureDrop
     pressure_drop_highest: PressureDrop
     dry_mass_per_area: MassPerAreaOrZero
@@ -78,6 +82,7 @@ class BagFilter(Collector):
     cloth and pinholes, about the same from thin and from dusty gas and of every size:
     ``concentration_leakage`` per gas as it is. Needle felt without a leak lets less than 1 mg/m³ through in
     trials, filters in plants mostly some times to ten times that: one hole of 1 mm does as much as nine bags.
+    The bags are counted by their side alone, of the manual's cage of 10 ft unless their size is given.
     The gas must stay warmer than its dew point, and colder than the cloth bears.
     """
 
@@ -94,6 +99,8 @@ class BagFilter(Collector):
     explosible_concentration: Concentration | None = None
     layer_ignition_temperature: Temperature | None = None
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
+    bag_diameter: Length = 0.13
+    bag_length: Length = 3.05
 
     takes_dust: ClassVar[bool] = True
     limits: ClassVar[Limits] = (
@@ -171,6 +178,7 @@ class BagFilter(Collector):
     def figures(self, inside: Bagged, outlets: Cleaned, feed: Stream) -> BagFigures:
         return BagFigures(
             inside.velocity,
+            jnp.ceil(self.area / (jnp.pi * self.bag_diameter * self.bag_length) - ROUNDING),
             inside.drop,
             inside.highest,
             inside.concentration * inside.velocity * self.cleaning_interval,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Mapping
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import equinox as eqx
 import jax
@@ -22,6 +22,7 @@ from granum.core.kinds import (
     Power,
     Pressure,
     Ratio,
+    Series,
     Temperature,
 )
 from granum.core.limits import Limit
@@ -126,6 +127,9 @@ class _Effects(Heating):
     effect_count: Literal["2", "3", "4", "5", "6", "7"] = eqx.field(kw_only=True, static=True, default="3")
     heat_transfer_coefficient_first: HeatTransferCoefficient = eqx.field(kw_only=True, default=2500.0)
     heat_transfer_coefficient_last: HeatTransferCoefficient = eqx.field(kw_only=True, default=1200.0)
+    heat_transfer_coefficient_effects: Annotated[HeatTransferCoefficient, Series("effects")] | None = (
+        eqx.field(kw_only=True, default=None)
+    )
 
     limits: ClassVar[Limits] = Heating.limits | {
         "lost": Limit(
@@ -137,9 +141,22 @@ class _Effects(Heating):
         )
     }
 
+    def __check_init__(self) -> None:
+        each = self.heat_transfer_coefficient_effects
+        if each is not None and len(each) != int(self.effect_count):
+            raise InputError(
+                _(
+                    "'heat_transfer_coefficient_effects' has {given} values for {count} effects: give one "
+                    "for each."
+                ).format(given=len(each), count=self.effect_count),
+                name="heat_transfer_coefficient_effects",
+            )
+
     def _coefficients(self) -> list[Any]:
-        """Of each effect, in equal steps of their logarithm from the first to the last."""
+        """Of each effect as given, or in equal steps of their logarithm from the first to the last."""
         n = int(self.effect_count)
+        if self.heat_transfer_coefficient_effects is not None:
+            return [self.heat_transfer_coefficient_effects[i] for i in range(n)]
         first, last = self.heat_transfer_coefficient_first, self.heat_transfer_coefficient_last
         return [first * (last / first) ** (i / (n - 1)) for i in range(n)]
 

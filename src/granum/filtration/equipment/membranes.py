@@ -18,6 +18,7 @@ from granum.core.kinds import (
     Area,
     Concentration,
     Fraction,
+    Law,
     Length,
     MassTransferCoefficient,
     MediumResistance,
@@ -227,10 +228,11 @@ class Ultrafiltration(_Plant):
     the next; fresh solvent, if any, enters all stages in equal parts (diafiltration).
 
     Solids are held back by size, dissolved matter by that of a compact molecule of its molar mass, which
-    polarization lessens. Flux is that of the pressure less the osmotic pressure at the wall, or that at which
-    what is held back gels there (``concentration_gel``), whichever is less. The transfer coefficient is one
-    for all solutes, and fouling a resistance that is given. The osmotic pressure among the figures is that of
-    the last retentate. Limits recalled, not opened.
+    polarization lessens. Flux is that of the pressure less the osmotic pressure at the wall, or that at
+    which what is held back gels there (``concentration_gel``), whichever is less; a ``flux_law`` as measured
+    takes the place of both. The transfer coefficient is one for all solutes, and fouling a resistance that
+    is given. The osmotic pressure among the figures is that of the last retentate. Limits recalled, not
+    opened.
     """
 
     pore_diameter: Length
@@ -241,6 +243,7 @@ class Ultrafiltration(_Plant):
     stage_count: Literal["1", "2", "3", "4", "5", "6"] = eqx.field(kw_only=True, static=True, default="1")
     circulation_flow: VolumeFlow = eqx.field(kw_only=True, default=0.0)
     pressure_drop_channel: PressureDrop = eqx.field(kw_only=True, default=1e5)
+    flux_law: Annotated[Any, Law("filtrate_flux")] = eqx.field(kw_only=True, default=None)
 
     limits: ClassVar[Limits] = {
         "flux": Limit("flux of the membrane", 1.4e-6, 1.4e-4, "m/s", SOURCE),
@@ -268,6 +271,7 @@ class Ultrafiltration(_Plant):
             lambda _flux, modulus: (1.0 - held) * modulus / (held + (1.0 - held) * modulus),
             jnp.broadcast_to(through, (len(m.solids), through.size)),
             self.concentration_gel,
+            self.flux_law,
         )
 
     def against(self, chain: Chain, count: int) -> tuple[Axis, list[Curve]]:
