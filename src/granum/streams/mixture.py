@@ -4,14 +4,17 @@ size classes.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.at_once import at_once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -212,11 +215,25 @@ class Mixture:
 
     def heat_of_mixing(self, liquids: Any, temperature: Any) -> Any:
         """What flows of the liquid species hold over their parts, W."""
-        return 0.0 if self.mixing is None else self.mixing(liquids, temperature)
+        if self.mixing is None:
+            return 0.0
+        numbers = array_of(liquids) is np and array_of(temperature) is np
+        return (_held_by_numbers if numbers else _held)(self.mixing, liquids, temperature)
 
     def densities(self, phase: str, temperature: Any) -> Any:
         """Densities of the (condensed) species of a phase, kg/m³."""
         return _horner(self._tables[phase][1], temperature)
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _held(mixing: Any, liquids: Any, temperature: Any) -> Any:
+    """A program of its own, traced and differentiated once for all places of a line that ask for it."""
+    return mixing(liquids, temperature)
+
+
+@at_once()
+def _held_by_numbers(mixing: Any, liquids: Any, temperature: Any) -> Any:
+    return mixing(liquids, temperature)
 
 
 def array_of(value: Any) -> Any:
