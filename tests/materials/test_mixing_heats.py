@@ -12,6 +12,7 @@ from granum.core import flags
 from granum.core.constants import GAS_CONSTANT
 from granum.core.errors import GranumError
 from granum.crystallization.formulas.balances import crystallizer_balance_library
+from granum.materials.formulas.activity import TERMS, over_temperature, slope_over_temperature
 from granum.materials.library import session
 from granum.materials.schema import read_materials
 from granum.streams.from_materials import mixture_of
@@ -163,3 +164,11 @@ def test_a_law_by_activities_needs_them() -> None:
     entry = {"molar_mass": 0.05, "formula": "KCl", "mixing": "activity", "branches": [branch]}
     with pytest.raises(GranumError, match="water_activity"):
         read_materials({"solute": {"mine": entry}}, "own")
+
+
+@pytest.mark.parametrize("term", range(TERMS))
+def test_each_term_over_temperature_has_its_slope(term: int) -> None:
+    alone = np.eye(TERMS)[term]
+    for T in (273.15, 330.0, 480.0):
+        slope = jax.grad(lambda t: over_temperature(t, alone))(T)
+        assert float(slope_over_temperature(T, alone)) == pytest.approx(float(slope), rel=1e-12)

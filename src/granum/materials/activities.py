@@ -10,21 +10,22 @@ from __future__ import annotations
 from typing import Any
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import flags
 from granum.core.constants import GAS_CONSTANT
 from granum.materials.correlation import Missing
 from granum.materials.formulas.activity import (
     DISTANCE,
+    SLOPE,
     TERMS,
     WATER,
-    debye_huckel_slope,
     fading,
     osmotic_coefficient,
     osmotic_coefficient_pitzer,
     over_temperature,
+    slope_over_temperature,
     solvent_activity_raoult,
     water_activity_osmotic,
     water_activity_starzak_peacock,
@@ -62,8 +63,7 @@ class ElectrolyteActivity(eqx.Module):
         T, m = jnp.asarray(temperature), solute_per_solvent / self.molar_mass
         self.heard(T, m)
         t = jnp.clip(T, self.coldest, self.hottest)
-        sets = (self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
-        at = tuple(over_temperature(t, a) for a in sets)
+        at = tuple(over_temperature(t, self._table(t)))[1:]
         within = jnp.clip(m, 0.0, self.most)
         phi = osmotic_coefficient(within, t, at, self.counts, self.charges, self.exponents)
         return water_activity_osmotic(m, phi, sum(self.counts))
@@ -76,24 +76,29 @@ class ElectrolyteActivity(eqx.Module):
         flags.record(flags.EXTRAPOLATED, outside, T, "temperature", key, cold, hot, self.source)
         flags.record(flags.EXTRAPOLATED, m > self.most, m, "salt_molality", key, 0.0, self.most, self.source)
 
-    def apparent_enthalpy(self, temperature: Any, molality: Any) -> Any:
+    def slopes(self, temperature: Any) -> Any:
+        """With temperature, of the Debye–Hückel slope, beta zero, one, two and C: one row each."""
+        return slope_over_temperature(temperature, self._table(temperature))
+
+    def apparent_enthalpy(self, temperature: Any, molality: Any, slopes: Any = None) -> Any:
         """Of a mole of salt over that in much water, J/mol: by the slope of the excess Gibbs energy with
         temperature.
         """
         (p, q), (zc, za) = self.counts, self.charges
         T, m = jnp.asarray(temperature, dtype=float), molality
-
-        def parameters(t: Any) -> Any:
-            sets = (self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
-            return [debye_huckel_slope.function(t), *(over_temperature(t, a) for a in sets)]
-
-        slope, zero, one, two, c = jax.jvp(parameters, (T,), (jnp.ones_like(T),))[1]
+        slope, zero, one, two, c = self.slopes(T) if slopes is None else slopes
         strength = 0.5 * (p * zc**2 + q * za**2)
         root = jnp.sqrt(jnp.maximum(strength * m, LEAST))
         pairs = zero + sum(b * fading(a * root) for a, b in zip(self.exponents, (one, two), strict=True))
         triples = m * p * zc * c / (2.0 * (zc * za) ** 0.5)
         alone = -4.0 * slope * strength / DISTANCE * jnp.log1p(DISTANCE * root)
         return -GAS_CONSTANT * T**2 * (alone + 2.0 * m * p * q * (pairs + triples))
+
+    def _table(self, temperature: Any) -> Any:
+        """Terms × coefficients, to be multiplied with terms like the temperature."""
+        sets = (SLOPE, self.beta_zero, self.beta_one, self.beta_two, self.c_phi)
+        table = np.array([(*a, *[0.0] * TERMS)[:TERMS] for a in sets]).T
+        return table.reshape(table.shape + (1,) * jnp.ndim(temperature))
 
 
 class SucroseActivity(eqx.Module):

@@ -69,9 +69,12 @@ class ElectrolyteMixing(eqx.Module):
         total, strongest = solute + solvent, law.most * law.molar_mass
         beyond = safe_divide(solute, total, 0.0) - strongest / (1.0 + strongest)
         further = jnp.maximum(beyond, 0.0) * (1.0 + strongest) ** 2 / law.molar_mass
-        at, of = law.apparent_enthalpy, self.strong
-        held, slope = jax.jvp(lambda m: at(T, m), (m,), (further,))
-        return solute / law.molar_mass * (held + slope - at(T, of) + at(ROOM, of))
+        both = jnp.stack([T, jnp.full_like(T, ROOM)])
+        slopes = law.slopes(both)
+        here = [slope[0] for slope in slopes]
+        held, slope = jax.jvp(lambda m: law.apparent_enthalpy(T, m, here), (m,), (further,))
+        strong, strong_at_room = law.apparent_enthalpy(both, self.strong, slopes)
+        return solute / law.molar_mass * (held + slope - strong + strong_at_room)
 
     def heard(self, temperature: Any, solute: Any, solvent: Any) -> None:
         """Flag a solution outside the temperatures and the molality of the activities."""

@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 from jax.extend.core import ClosedJaxpr, jaxpr_as_fun
+from jax.interpreters.partial_eval import dce_jaxpr
 
 Equation = Callable[[Any], Any]
 
@@ -76,7 +77,8 @@ def converted(function: Callable[..., Any], *like: Any) -> tuple[Callable[..., A
     result.
     """
     closed, image = jax.make_jaxpr(function, return_shape=True)(*like)
-    jaxpr, tree = closed.jaxpr, jax.tree.structure(image)
+    # what nobody asks for would be differentiated all the same
+    jaxpr, tree = dce_jaxpr(closed.jaxpr, True, True)[0], jax.tree.structure(image)
 
     @jax.jit
     def replayed(closed_over: list[Any], *given: Any) -> Any:

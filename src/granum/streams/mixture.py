@@ -4,14 +4,17 @@ size classes.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.at_once import at_once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -191,32 +194,39 @@ class Mixture:
         tables = {}
         for phase in ("solids", "liquids", "gases"):
             species = getattr(self, phase)
-            heats = [
-                (s.reference_enthalpy, *(c / (power + 1) for power, c in enumerate(s.heat_capacity)))
-                for s in species
-            ]
-            tables[phase] = (_table(heats), _table([s.density for s in species]))
+            tables[phase] = (_heats(species), _table([s.density for s in species]))
         return tables
 
     def enthalpies(self, phase: str, temperature: Any) -> Any:
         """Specific enthalpies of the species of a phase, J/kg."""
-        table, ends = self._tables[phase][0], [s.valid for s in getattr(self, phase)]
+        table, species = self._tables[phase][0], getattr(self, phase)
         if table.shape[1] < 3:  # constant heat capacities
             return _horner(table, temperature)
-        xp = array_of(temperature)
-        T = xp.asarray(temperature, dtype=float)
-        low, high = (np.array(side).reshape((-1,) + (1,) * T.ndim) for side in zip(*ends, strict=True))
-        inside = xp.clip(T, low, high)
-        slopes = table[:, 1:] * np.arange(1, table.shape[1])
-        return _horner(table, inside, by_row=True) + _horner(slopes, inside, by_row=True) * (T - inside)
+        if array_of(temperature) is np:
+            return _enthalpies(table, species, temperature)
+        return _enthalpies_traced(species, temperature)
 
     def heat_of_mixing(self, liquids: Any, temperature: Any) -> Any:
         """What flows of the liquid species hold over their parts, W."""
-        return 0.0 if self.mixing is None else self.mixing(liquids, temperature)
+        if self.mixing is None:
+            return 0.0
+        numbers = array_of(liquids) is np and array_of(temperature) is np
+        return (_held_by_numbers if numbers else _held)(self.mixing, liquids, temperature)
 
     def densities(self, phase: str, temperature: Any) -> Any:
         """Densities of the (condensed) species of a phase, kg/m³."""
         return _horner(self._tables[phase][1], temperature)
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _held(mixing: Any, liquids: Any, temperature: Any) -> Any:
+    """A program of its own, traced and differentiated once for all places of a line that ask for it."""
+    return mixing(liquids, temperature)
+
+
+@at_once()
+def _held_by_numbers(mixing: Any, liquids: Any, temperature: Any) -> Any:
+    return mixing(liquids, temperature)
 
 
 def array_of(value: Any) -> Any:
@@ -227,6 +237,31 @@ def array_of(value: Any) -> Any:
 def _table(rows: list[tuple[float, ...]]) -> np.ndarray:
     width = max((len(row) for row in rows), default=1)
     return np.array([row + (0.0,) * (width - len(row)) for row in rows]).reshape(len(rows), width)
+
+
+def _heats(species: tuple[Species, ...]) -> np.ndarray:
+    return _table(
+        [
+            (s.reference_enthalpy, *(c / (power + 1) for power, c in enumerate(s.heat_capacity)))
+            for s in species
+        ]
+    )
+
+
+def _enthalpies(table: np.ndarray, species: tuple[Species, ...], temperature: Any) -> Any:
+    xp = array_of(temperature)
+    T = xp.asarray(temperature, dtype=float)
+    ends = zip(*(s.valid for s in species), strict=True)
+    low, high = (np.array(side).reshape((-1,) + (1,) * T.ndim) for side in ends)
+    inside = xp.clip(T, low, high)
+    slopes = table[:, 1:] * np.arange(1, table.shape[1])
+    return _horner(table, inside, by_row=True) + _horner(slopes, inside, by_row=True) * (T - inside)
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _enthalpies_traced(species: tuple[Species, ...], temperature: Any) -> Any:
+    """As ``_held``."""
+    return _enthalpies(_heats(species), species, temperature)
 
 
 def _horner(table: np.ndarray, temperature: Any, by_row: bool = False) -> Any:

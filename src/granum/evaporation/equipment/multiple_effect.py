@@ -31,7 +31,7 @@ from granum.evaporation.equipment.evaporator import Heating
 from granum.evaporation.formulas.steam_jet import WEAK, motive_steam_ratio_el_dessouky
 from granum.evaporation.inside_charts import drawn_effects
 from granum.evaporation.kinds import EVAPORATION_SOURCE
-from granum.numerics import Newton, solve_system
+from granum.numerics import fixed_point
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Limits, Operated
@@ -160,9 +160,12 @@ class _Effects(Heating):
         first, last = self.heat_transfer_coefficient_first, self.heat_transfer_coefficient_last
         return [first * (last / first) ** (i / (n - 1)) for i in range(n)]
 
+    def _conductances(self) -> Any:
+        return jnp.stack([jnp.asarray(self.conductance(c), dtype=float) for c in self._coefficients()])
+
     def _pass(self, liquor: Liquor, feed: Stream, chest: Any, pure: list[Any]) -> Train:
         """All effects at given boiling points of the solvent."""
-        walls = jnp.stack([jnp.asarray(self.conductance(c), dtype=float) for c in self._coefficients()])
+        walls = self._conductances()
         temperatures = jnp.stack([jnp.asarray(T, dtype=float) for T in (chest, *pure)])
         parallel = self.feeding == "parallel"
         part = 1.0 / len(pure) if parallel else 1.0
@@ -198,28 +201,27 @@ class _Effects(Heating):
         coldest = liquor.pure_boiling(self.pressure)
         walls = jnp.stack([1.0 / jnp.asarray(c, dtype=float) for c in self._coefficients()])
         shares = jnp.cumsum(walls)[:-1] / jnp.sum(walls)
-        scale = jnp.maximum(feed.liquid[0], 1e-9) * liquor.latent(coldest) / int(self.effect_count)
+        through = self._conductances()
+        # of what is missing, if each vapor held just the heat that made it; the method learns the rest
+        between = jnp.diag(through[1:-1], 1)
+        slopes = jnp.diag(through[:-1] + through[1:]) - between - between.T
 
         def given(state: Any) -> list[Any]:
             return [*(state[i] for i in range(len(shares))), coldest]
 
-        def mismatch(state: Any, _args: Any) -> Any:
+        def nearer(state: Any, _args: Any) -> Any:
             train = self._pass(liquor, feed, chest, given(state))
-            return jnp.stack(
-                [
-                    (train.effects[i + 1].duty - vapor.enthalpy_flow + train.condensates[i].enthalpy_flow)
-                    / scale
-                    for i, vapor in enumerate(train.vapors[:-1])
-                ]
-            )
+            missing = [
+                train.effects[i + 1].duty - vapor.enthalpy_flow + train.condensates[i].enthalpy_flow
+                for i, vapor in enumerate(train.vapors[:-1])
+            ]
+            return state - jnp.linalg.solve(slopes, jnp.stack(missing))
 
-        found = solve_system(
-            mismatch,
+        found = fixed_point(
+            nearer,
             chest - (chest - coldest) * shares,
-            method=Newton(),
             tolerance=1e-12,
             scale=jnp.full(len(shares), 10.0),
-            residual_scale=jnp.ones(len(shares)),
         )
         unsolved(found.residual < 1e-10, type(self).card, reason=UNSOLVED)
         train = self._pass(liquor, feed, chest, given(found.state))

@@ -64,6 +64,23 @@ def over_temperature(T: Any, a: Any) -> Any:
     return sum(coefficient * term for coefficient, term in zip(a, terms, strict=False))
 
 
+def slope_over_temperature(T: Any, a: Any) -> Any:
+    """By how much that changes with temperature."""
+    terms = (
+        0.0,
+        1.0,
+        -1.0 / T**2,
+        1.0 / T,
+        -1.0 / (T - 263.0) ** 2,
+        2.0 * T,
+        1.0 / (680.0 - T) ** 2,
+        -1.0 / (T - 227.0) ** 2,
+        -2.0 / T**3,
+        1.0 / (T - 225.0),
+    )
+    return sum(coefficient * term for coefficient, term in zip(a, terms, strict=False))
+
+
 def fading(x: Any) -> Any:
     """How a second virial coefficient of the excess energy fades with ionic strength."""
     return 2.0 * (1.0 - (1.0 + x) * jnp.exp(-x)) / x**2
