@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import exp, log, sqrt
+from typing import Any
 
 import jax
 import numpy as np
@@ -12,6 +13,7 @@ from granum.core import flags
 from granum.core.constants import GAS_CONSTANT
 from granum.core.errors import GranumError
 from granum.crystallization.formulas.balances import crystallizer_balance_library
+from granum.materials.ions import ions_of
 from granum.materials.library import session
 from granum.materials.schema import read_materials
 from granum.streams.from_materials import mixture_of
@@ -128,14 +130,123 @@ def test_three_hundred_solutions() -> None:
         assert np.all((s * c + (1.0 - s) * 4180.0 + np.asarray(slopes[0]))[s < 0.5] > 1500.0)
 
 
-def test_several_salts_are_without_it() -> None:
+SEA = ("sodium chloride", "magnesium chloride", "sodium sulfate", "magnesium sulfate")
+
+
+def together(*salts: str, solids: tuple[str, ...] = ()) -> Any:
+    return mixture_of(["water", *salts], list(solids), [], (1e-5, 1e-3))
+
+
+@pytest.mark.parametrize(
+    ("celsius", "before", "after", "heat"),
+    [
+        (10.0, 70.0, 35.0, 695.7),
+        (10.0, 120.0, 35.0, 2824.9),
+        (20.0, 70.0, 35.0, 420.9),
+        (20.0, 120.0, 5.0, 1930.7),
+        (25.0, 70.0, 35.0, 310.8),
+        (25.0, 100.0, 35.0, 848.4),
+        (25.0, 120.0, 35.0, 1351.9),
+        (30.0, 70.0, 35.0, 212.5),
+        (30.0, 120.0, 35.0, 992.2),
+    ],
+)
+def test_sea_water_is_diluted_as_its_equation_of_state_has_it(
+    celsius: float, before: float, after: float, heat: float
+) -> None:
+    """J taken up by a kilogram of sea water of so many g/kg as water is added, at its temperature: TEOS-10
+    (package gsw 3.6.23, opened), which rests on measured heats of dilution and heat capacities. Composition
+    of Millero (2008), potassium counted as sodium, calcium as magnesium, other anions as chloride.
+    """
+    moles = 1000.0 / 31.4038218
+    sodium, magnesium, sulfate = (x * moles for x in (0.427923, 0.0564311, 0.0252152))
+    mixture = together(*SEA)
+    parts = [ions.anhydrous_mass for n in SEA if (ions := ions_of(session().solute(n).formula))]
+    kept = np.array([sodium, magnesium - sulfate, 0.0, sulfate]) * parts
+    salts = before * 1e-3 * kept / kept.sum()
+
+    def held(water: float) -> float:
+        liquor = np.array([1.0 - before * 1e-3 + water, *salts])
+        return float(mixture.heat_of_mixing(liquor, celsius + 273.15))
+
+    assert held(before / after - 1.0) - held(0.0) == pytest.approx(heat, rel=0.15, abs=40.0)
+
+
+@pytest.mark.parametrize(
+    "pair", [("sodium chloride", "magnesium chloride"), ("calcium chloride", "sodium chloride")]
+)
+def test_of_two_salts_one_alone_is_as_without_the_other(pair: tuple[str, str]) -> None:
+    both = together(*pair)
+    for k, name in enumerate(pair):
+        law = session().solute(name).mixing_law
+        for T in (283.0, ROOM, 360.0):
+            for share in (0.02, 0.2, 0.45, 0.8):
+                liquor = np.zeros(3)
+                liquor[0], liquor[1 + k] = 1.0 - share, share
+                expected = float(law(T, share, 1.0 - share))
+                assert float(both.heat_of_mixing(liquor, T)) == pytest.approx(expected, rel=3e-4, abs=1.0)
+
+
+def test_brines_of_one_ionic_strength_and_one_common_ion_mix_without_heat() -> None:
+    """Young's rule. Some 160 J per kilogram of water of two molal sodium and potassium chloride were measured
+    (Wood and Anderson, recalled), which is what is left out.
+    """
+    both = together("sodium chloride", "potassium chloride")
+    masses = [
+        ions.anhydrous_mass for s in both.liquids[1:] if (ions := ions_of(session().solute(s.name).formula))
+    ]
+
+    def held(x: float) -> float:
+        liquor = np.array([1.0, 2.0 * x * masses[0], 2.0 * (1.0 - x) * masses[1]])
+        return float(both.heat_of_mixing(liquor, ROOM))
+
+    assert held(0.3) == pytest.approx(0.3 * held(1.0) + 0.7 * held(0.0), abs=1e-6)
+
+
+def test_it_does_not_matter_which_salts_a_brine_is_counted_as() -> None:
+    """Sodium chloride and magnesium sulfate hold what sodium sulfate and magnesium chloride do."""
+    mixture, rng = together(*SEA), np.random.default_rng(2)
+    masses = [ions.anhydrous_mass for n in SEA if (ions := ions_of(session().solute(n).formula))]
+    gain = np.array([0.0, *(np.array([2.0, -1.0, -1.0, 1.0]) * masses)])  # as two of salt are made
+    for _ in range(20):
+        T, liquor = rng.uniform(275.0, 400.0), np.array([1.0, *rng.uniform(0.05, 0.3, 4)])
+        other = liquor + 0.2 * gain
+
+        def whole(x: Any, T: float = T) -> float:
+            return float(x @ mixture.enthalpies("liquids", T) + mixture.heat_of_mixing(x, T))
+
+        assert whole(other) == pytest.approx(whole(liquor), rel=1e-11)
+
+
+def test_two_hundred_brines() -> None:
+    """What is held grows with the amount, nothing without salts, slopes are finite, and a brine is warmer the
+    more heat it holds.
+    """
+    mixture, rng = together(*SEA), np.random.default_rng(4)
+    T, liquors = rng.uniform(263.0, 423.0, 200), rng.uniform(0.0, 0.25, (200, 5))
+    liquors[:, 0] = rng.uniform(0.0, 1.0, 200)
+    liquors[:40, 1:] *= rng.integers(0, 2, (40, 4))
+    liquors[0], liquors[1] = 0.0, [1.0, 0.0, 0.0, 0.0, 0.0]
+    value, (slopes, warmer) = jax.jit(jax.vmap(jax.value_and_grad(mixture.heat_of_mixing, argnums=(0, 1))))(
+        liquors, T
+    )
+    assert np.all(np.isfinite(value))
+    assert np.all(np.isfinite(slopes))
+    np.testing.assert_allclose(np.sum(liquors * slopes, axis=1), value, rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(value[:2], 0.0, atol=1e-9)
+    capacities = 4180.0 * liquors[:, 0] + liquors[:, 1:] @ [
+        float(s.heat_capacity[0]) for s in mixture.liquids[1:]
+    ]
+    assert np.all((capacities + warmer)[2:] > 0.0)
+
+
+def test_salts_of_which_one_is_not_known_are_without_it() -> None:
     """And their crystals hold what they hold over solutions whose parts add up."""
-    alone = mixture_of(["water", "magnesium chloride"], ["magnesium chloride hexahydrate"], [], (1e-5, 1e-3))
-    both = mixture_of(
-        ["water", "magnesium chloride", "sodium chloride"],
-        ["magnesium chloride hexahydrate", "sodium chloride"],
-        [],
-        (1e-5, 1e-3),
+    alone = together("magnesium chloride", solids=("magnesium chloride hexahydrate",))
+    both = together(
+        "magnesium chloride",
+        "potassium nitrate",
+        solids=("magnesium chloride hexahydrate", "potassium nitrate"),
     )
     assert alone.mixing is not None
     assert both.mixing is None

@@ -5,15 +5,19 @@ Elsewhere the enthalpies of solvent and solute add up, and diluting gives off no
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 
-from granum.core.constants import ZERO_CELSIUS
-from granum.materials.activities import ElectrolyteActivity
+from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
+from granum.materials.activities import LEAST, ElectrolyteActivity
+from granum.materials.formulas.activity import DISTANCE, debye_huckel_slope, fading, over_temperature
 from granum.materials.formulas.caustic import STRONGEST, caustic_enthalpy_olsson, specific_enthalpy
+from granum.materials.ions import Ions
 from granum.numerics.smooth import safe_divide
 
 ROOM = 298.15
@@ -59,19 +63,28 @@ class ElectrolyteMixing(eqx.Module):
     coldest: float = eqx.field(static=True)
     strong: float
     others = False
-    """Whether it holds beside other salts."""
+    """Whether it holds beside other salts as it is."""
 
     def __call__(self, temperature: Any, solute: Any, solvent: Any) -> Any:
         """What these amounts (kg or kg/s) hold over their parts, J or W; nothing in much water at 25 °C."""
         law = self.activity
         m = jnp.minimum(self._molality(solute, solvent), law.most)
-        T = jnp.clip(jnp.asarray(temperature, dtype=float), self.coldest, law.hottest)
+        T = self._inside(temperature)
         total, strongest = solute + solvent, law.most * law.molar_mass
         beyond = safe_divide(solute, total, 0.0) - strongest / (1.0 + strongest)
         further = jnp.maximum(beyond, 0.0) * (1.0 + strongest) ** 2 / law.molar_mass
-        at, of = law.apparent_enthalpy, self.strong
-        held, slope = jax.jvp(lambda m: at(T, m), (m,), (further,))
-        return solute / law.molar_mass * (held + slope - at(T, of) + at(ROOM, of))
+        held, slope = jax.jvp(lambda m: law.apparent_enthalpy(T, m), (m,), (further,))
+        return solute / law.molar_mass * (held + slope + self.level(temperature))
+
+    def level(self, temperature: Any) -> Any:
+        """What a mole holds at a temperature more than at 25 °C beside its heat capacity elsewhere, which is
+        that in the strong solution, J.
+        """
+        at = self.activity.apparent_enthalpy
+        return at(ROOM, self.strong) - at(self._inside(temperature), self.strong)
+
+    def _inside(self, temperature: Any) -> Any:
+        return jnp.clip(jnp.asarray(temperature, dtype=float), self.coldest, self.activity.hottest)
 
     def heard(self, temperature: Any, solute: Any, solvent: Any) -> None:
         """Flag a solution outside the temperatures and the molality of the activities."""
@@ -81,3 +94,129 @@ class ElectrolyteMixing(eqx.Module):
         """Of no solution that of the strongest."""
         law = self.activity
         return safe_divide(solute, solvent * law.molar_mass, jnp.where(solute > 0.0, law.most, 0.0))
+
+
+class IonMixing(eqx.Module):
+    """Of several salts in one water, by the slopes of the activities of each cation with each anion.
+
+    What like ions do to each other is taken as the same at all temperatures, charges of unequal size
+    included: brines of one ionic strength and one common ion mix without heat. Beyond the ionic strength of
+    the data, shared by how much there is of each pair, the salts go on with the slope that they have there
+    over the mass fraction, each pair beyond its temperatures with what it has at their end.
+
+    Parameters
+    ----------
+    pairs: the law of each cation (rows) with each anion.
+    charges: of the cations and the anions, without sign.
+    table: ions (columns) in a mole of each dissolved salt (rows).
+    masses: of a mole of each dissolved salt, kg.
+    salts: the law of each dissolved salt alone.
+    exchange: moles of each dissolved salt that an exchange of ions makes, where all four of two cations and
+        two anions are counted; all none elsewhere.
+    """
+
+    pairs: tuple[tuple[ElectrolyteMixing, ...], ...]
+    charges: tuple[tuple[int, ...], tuple[int, ...]] = eqx.field(static=True)
+    table: tuple[tuple[int, ...], ...] = eqx.field(static=True)
+    masses: tuple[float, ...] = eqx.field(static=True)
+    salts: tuple[ElectrolyteMixing, ...]
+    exchange: tuple[float, ...] = eqx.field(static=True)
+
+    @classmethod
+    def of(
+        cls,
+        dissolved: Mapping[str, Ions],
+        laws: Mapping[tuple[str, str], ElectrolyteMixing],
+        exchange: Mapping[str, float],
+    ) -> IonMixing | None:
+        """Of dissolved salts, with the laws of salts by their ions; None where a pair of ions has none."""
+        parts = tuple(dissolved.values())
+        cations = tuple(dict.fromkeys((p.cation, p.cation_charge) for p in parts))
+        anions = tuple(dict.fromkeys((p.anion, -p.anion_charge) for p in parts))
+        if any((c, a) not in laws for c, _zc in cations for a, _za in anions):
+            return None
+        ions = [name for name, _charge in (*cations, *anions)]
+        counts = [{p.cation: p.cation_count, p.anion: p.anion_count} for p in parts]
+        return cls(
+            tuple(tuple(laws[c, a] for a, _za in anions) for c, _zc in cations),
+            (tuple(z for _c, z in cations), tuple(z for _a, z in anions)),
+            tuple(tuple(each.get(ion, 0) for ion in ions) for each in counts),
+            tuple(p.anhydrous_mass for p in parts),
+            tuple(laws[p.cation, p.anion] for p in parts),
+            tuple(exchange.get(name, 0.0) for name in dissolved),
+        )
+
+    def __call__(self, temperature: Any, solutes: Any, solvent: Any) -> Any:
+        """What these amounts (kg or kg/s) hold over their parts, J or W; nothing in much water at 25 °C."""
+        T, moles = jnp.asarray(temperature, dtype=float), solutes / np.array(self.masses)
+        total = jnp.sum(solutes)
+        ions = safe_divide(moles @ np.array(self.table, dtype=float), total, 0.0)
+        share = self._share(ions)  # of the strongest solution, in one of a kilogram of salts per kg of water
+        most = 1.0 / jnp.where(share > 0.0, share, 1.0)
+        ratio = jnp.clip(safe_divide(total, solvent, most), THINNEST, most)
+        beyond = jnp.maximum(safe_divide(total, total + solvent, 0.0) - most / (1.0 + most), 0.0)
+        held, slope = jax.jvp(lambda r: self._apart(T, r * ions) / r, (ratio,), (beyond * (1.0 + most) ** 2,))
+        return total * (held + slope) + jnp.sum(moles * self._levels(T))
+
+    def heard(self, temperature: Any, solutes: Any, solvent: Any) -> None:
+        """Flag a solution outside the temperatures of the activities, or with more of the ions of a salt than
+        it alone is known with.
+        """
+        moles = solutes / np.array(self.masses)
+        ions = safe_divide(moles @ np.array(self.table, dtype=float), solvent, 0.0)
+        for j, row in enumerate(self.pairs):
+            for k, law in enumerate(row):
+                p, q = law.activity.counts
+                there = jnp.minimum(ions[j] / p, ions[len(self.pairs) + k] / q)
+                law.activity.heard(temperature, there)
+
+    def _share(self, ions: Any) -> Any:
+        """Ionic strength over that of the strongest solutions of the pairs of ions, each counted by the
+        charges of its ions.
+        """
+        positive, negative = (np.array(z, dtype=float) for z in self.charges)
+        cations, anions = ions[: len(positive)], ions[len(positive) :]
+        strength = 0.5 * (jnp.sum(cations * positive**2) + jnp.sum(anions * negative**2))
+        most = [
+            [m.activity.most * 0.5 * np.dot(m.activity.counts, np.square(m.activity.charges)) for m in row]
+            for row in self.pairs
+        ]
+        charge = jnp.sum(cations * positive)
+        pairs = (cations * positive) @ (1.0 / np.array(most)) @ (anions * negative)
+        return safe_divide(strength * pairs, charge**2, 0.0)
+
+    def _apart(self, T: Any, m: Any) -> Any:
+        """Of ions (mol) in a kilogram of water over the same in much water, J."""
+        positive, negative = (np.array(z, dtype=float) for z in self.charges)
+        cations, anions = m[: len(positive)], m[len(positive) :]
+        strength = 0.5 * (jnp.sum(cations * positive**2) + jnp.sum(anions * negative**2))
+        root, charge = jnp.sqrt(jnp.maximum(strength, LEAST)), jnp.sum(cations * positive)
+        laws = [[m.activity for m in row] for row in self.pairs]
+        sets = np.array(
+            [[(a.beta_zero, a.beta_one, a.beta_two, a.c_phi) for a in row] for row in laws], dtype=float
+        )
+        low = np.array([[m.coldest for m in row] for row in self.pairs])
+        high = np.array([[a.hottest for a in row] for row in laws])
+        t = jnp.clip(T, low, high)
+        slopes = jax.jvp(
+            lambda t: over_temperature(t[..., None], np.moveaxis(sets, -1, 0)), (t,), (jnp.ones_like(t),)
+        )[1]
+        zero, one, two, c = (slopes[..., k] for k in range(4))
+        exponents = np.array([[a.exponents for a in row] for row in laws])
+        second = zero + one * fading(exponents[..., 0] * root) + two * fading(exponents[..., 1] * root)
+        third = c / (2.0 * np.sqrt(np.outer(positive, negative)))
+        inside = jnp.clip(T, np.min(low), np.max(high))
+        far = jax.jvp(debye_huckel_slope.function, (inside,), (jnp.ones_like(inside),))[1]
+        alone = -4.0 * far * strength / DISTANCE * jnp.log1p(DISTANCE * root)
+        together = 2.0 * cations @ (t**2 * (second + charge * third)) @ anions
+        return -GAS_CONSTANT * (inside**2 * alone + together)
+
+    def _levels(self, T: Any) -> Any:
+        """Of a mole of each salt: it counts elsewhere with the heat capacity that it has in a strong
+        solution; sums over ions where those of four salts are.
+        """
+        levels = jnp.stack([law.level(T) for law in self.salts])
+        made = np.array(self.exchange)
+        if not made.any():
+            return levels
+        return levels - (made @ levels) / (len(made) * np.where(made, made, 1.0))
