@@ -35,6 +35,7 @@ from granum.streams.stream import Stream, empty
 TOLD = 0.02  # of a duty: heats of dilution beyond that are told
 DILUTION = "The heat of dilution of this liquor is left out; it is more than 2 % of the duty here."
 PASSES = 8  # of Newton's method, for what a liquor takes as it thickens
+REPEATS = 14  # of the same by repeated substitution, where salts crystallize together
 SPAN = 80.0  # K above the boiling point of the solvent within which a solution is sought that boils
 
 
@@ -307,15 +308,11 @@ def _boil_together(liquor: Liquor, salts: Salts, feed: Stream, chest: Any, pure:
         staying = dissolved.at[places].add(-(n @ salts.made_of))
         limit = DRIEST * staying[0]
 
-        def unmixed(evaporated: Any) -> Any:
+        def step(_pass: Any, evaporated: Any) -> Any:  # a liquor takes far less than the latent heat of water
             left = staying.at[0].add(-jnp.clip(evaporated, 0.0, limit))
-            return evaporated + (mixture.heat_of_mixing(left, T) - held - given) / latent
+            return (given + held - mixture.heat_of_mixing(left, T)) / latent
 
-        def step(_pass: Any, evaporated: Any) -> Any:
-            value, slope = jax.jvp(unmixed, (evaporated,), (jnp.ones_like(evaporated),))
-            return evaporated - value / slope
-
-        return jax.lax.fori_loop(0, PASSES, step, given / latent)
+        return jax.lax.fori_loop(0, REPEATS, step, given / latent)
 
     def excess(T: Any, log_water: Any, fraction: Any) -> Any:
         if liquor.elevation is not None:

@@ -6,13 +6,14 @@ Elsewhere the enthalpies of solvent and solute add up, and diluting gives off no
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.compiling import once
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.materials.activities import LEAST, ElectrolyteActivity
 from granum.materials.formulas.activity import DISTANCE, debye_huckel_slope, fading, over_temperature
@@ -80,8 +81,12 @@ class ElectrolyteMixing(eqx.Module):
         """What a mole holds at a temperature more than at 25 °C beside its heat capacity elsewhere, which is
         that in the strong solution, J.
         """
-        at = self.activity.apparent_enthalpy
-        return at(ROOM, self.strong) - at(self._inside(temperature), self.strong)
+        return self.room - self.activity.apparent_enthalpy(self._inside(temperature), self.strong)
+
+    @property
+    def room(self) -> float:
+        """Of a mole in the strong solution at 25 °C, J."""
+        return float(once(self.activity.apparent_enthalpy, ROOM, self.strong))
 
     def _inside(self, temperature: Any) -> Any:
         return jnp.clip(jnp.asarray(temperature, dtype=float), self.coldest, self.activity.hottest)
@@ -94,6 +99,16 @@ class ElectrolyteMixing(eqx.Module):
         """Of no solution that of the strongest."""
         law = self.activity
         return safe_divide(solute, solvent * law.molar_mass, jnp.where(solute > 0.0, law.most, 0.0))
+
+
+class _Slopes(NamedTuple):
+    """With temperature, times its square: of Debye and Hückel, of the same at the temperature of each pair of
+    ions, and of the four coefficients of each.
+    """
+
+    far: Any
+    each_far: Any
+    each: Any
 
 
 class IonMixing(eqx.Module):
@@ -110,7 +125,8 @@ class IonMixing(eqx.Module):
     charges: of the cations and the anions, without sign.
     table: ions (columns) in a mole of each dissolved salt (rows).
     masses: of a mole of each dissolved salt, kg.
-    salts: the law of each dissolved salt alone.
+    places: of each dissolved salt among the pairs.
+    room: what a mole of each pair holds at 25 °C in its strong solution, J.
     exchange: moles of each dissolved salt that an exchange of ions makes, where all four of two cations and
         two anions are counted; all none elsewhere.
     """
@@ -119,7 +135,8 @@ class IonMixing(eqx.Module):
     charges: tuple[tuple[int, ...], tuple[int, ...]] = eqx.field(static=True)
     table: tuple[tuple[int, ...], ...] = eqx.field(static=True)
     masses: tuple[float, ...] = eqx.field(static=True)
-    salts: tuple[ElectrolyteMixing, ...]
+    places: tuple[int, ...] = eqx.field(static=True)
+    room: tuple[float, ...] = eqx.field(static=True)
     exchange: tuple[float, ...] = eqx.field(static=True)
 
     @classmethod
@@ -133,7 +150,8 @@ class IonMixing(eqx.Module):
         parts = tuple(dissolved.values())
         cations = tuple(dict.fromkeys((p.cation, p.cation_charge) for p in parts))
         anions = tuple(dict.fromkeys((p.anion, -p.anion_charge) for p in parts))
-        if any((c, a) not in laws for c, _zc in cations for a, _za in anions):
+        pairs = [(c, a) for c, _zc in cations for a, _za in anions]
+        if any(pair not in laws for pair in pairs):
             return None
         ions = [name for name, _charge in (*cations, *anions)]
         counts = [{p.cation: p.cation_count, p.anion: p.anion_count} for p in parts]
@@ -142,21 +160,24 @@ class IonMixing(eqx.Module):
             (tuple(z for _c, z in cations), tuple(z for _a, z in anions)),
             tuple(tuple(each.get(ion, 0) for ion in ions) for each in counts),
             tuple(p.anhydrous_mass for p in parts),
-            tuple(laws[p.cation, p.anion] for p in parts),
+            tuple(pairs.index((p.cation, p.anion)) for p in parts),
+            tuple(laws[pair].room for pair in pairs),
             tuple(exchange.get(name, 0.0) for name in dissolved),
         )
 
     def __call__(self, temperature: Any, solutes: Any, solvent: Any) -> Any:
         """What these amounts (kg or kg/s) hold over their parts, J or W; nothing in much water at 25 °C."""
-        T, moles = jnp.asarray(temperature, dtype=float), solutes / np.array(self.masses)
+        moles, slopes = solutes / np.array(self.masses), self._slopes(jnp.asarray(temperature, dtype=float))
         total = jnp.sum(solutes)
         ions = safe_divide(moles @ np.array(self.table, dtype=float), total, 0.0)
         share = self._share(ions)  # of the strongest solution, in one of a kilogram of salts per kg of water
         most = 1.0 / jnp.where(share > 0.0, share, 1.0)
         ratio = jnp.clip(safe_divide(total, solvent, most), THINNEST, most)
         beyond = jnp.maximum(safe_divide(total, total + solvent, 0.0) - most / (1.0 + most), 0.0)
-        held, slope = jax.jvp(lambda r: self._apart(T, r * ions) / r, (ratio,), (beyond * (1.0 + most) ** 2,))
-        return total * (held + slope) + jnp.sum(moles * self._levels(T))
+        held, slope = jax.jvp(
+            lambda r: self._apart(slopes, r * ions) / r, (ratio,), (beyond * (1.0 + most) ** 2,)
+        )
+        return total * (held + slope) + jnp.sum(moles * self._levels(slopes))
 
     def heard(self, temperature: Any, solutes: Any, solvent: Any) -> None:
         """Flag a solution outside the temperatures of the activities, or with more of the ions of a salt than
@@ -185,37 +206,51 @@ class IonMixing(eqx.Module):
         pairs = (cations * positive) @ (1.0 / np.array(most)) @ (anions * negative)
         return safe_divide(strength * pairs, charge**2, 0.0)
 
-    def _apart(self, T: Any, m: Any) -> Any:
+    def _slopes(self, T: Any) -> _Slopes:
+        """Of the coefficients of each pair with temperature, times its square."""
+        laws = [m.activity for row in self.pairs for m in row]
+        sets = np.array([(a.beta_zero, a.beta_one, a.beta_two, a.c_phi) for a in laws], dtype=float)
+        low = np.array([m.coldest for row in self.pairs for m in row])
+        high = np.array([a.hottest for a in laws])
+        t = jnp.clip(T, low, high)
+        table = np.moveaxis(sets, -1, 0)
+        slopes = jax.jvp(lambda t: over_temperature(t[:, None], table), (t,), (jnp.ones_like(t),))[1]
+        inside = jnp.append(t, jnp.clip(T, np.min(low), np.max(high)))
+        far = jax.jvp(debye_huckel_slope.function, (inside,), (jnp.ones_like(inside),))[1] * inside**2
+        return _Slopes(far[-1], far[:-1], slopes * t[:, None] ** 2)
+
+    def _apart(self, slopes: _Slopes, m: Any) -> Any:
         """Of ions (mol) in a kilogram of water over the same in much water, J."""
         positive, negative = (np.array(z, dtype=float) for z in self.charges)
         cations, anions = m[: len(positive)], m[len(positive) :]
         strength = 0.5 * (jnp.sum(cations * positive**2) + jnp.sum(anions * negative**2))
         root, charge = jnp.sqrt(jnp.maximum(strength, LEAST)), jnp.sum(cations * positive)
-        laws = [[m.activity for m in row] for row in self.pairs]
-        sets = np.array(
-            [[(a.beta_zero, a.beta_one, a.beta_two, a.c_phi) for a in row] for row in laws], dtype=float
-        )
-        low = np.array([[m.coldest for m in row] for row in self.pairs])
-        high = np.array([[a.hottest for a in row] for row in laws])
-        t = jnp.clip(T, low, high)
-        slopes = jax.jvp(
-            lambda t: over_temperature(t[..., None], np.moveaxis(sets, -1, 0)), (t,), (jnp.ones_like(t),)
-        )[1]
-        zero, one, two, c = (slopes[..., k] for k in range(4))
-        exponents = np.array([[a.exponents for a in row] for row in laws])
-        second = zero + one * fading(exponents[..., 0] * root) + two * fading(exponents[..., 1] * root)
-        third = c / (2.0 * np.sqrt(np.outer(positive, negative)))
-        inside = jnp.clip(T, np.min(low), np.max(high))
-        far = jax.jvp(debye_huckel_slope.function, (inside,), (jnp.ones_like(inside),))[1]
-        alone = -4.0 * far * strength / DISTANCE * jnp.log1p(DISTANCE * root)
-        together = 2.0 * cations @ (t**2 * (second + charge * third)) @ anions
-        return -GAS_CONSTANT * (inside**2 * alone + together)
+        alone = -4.0 * slopes.far * strength / DISTANCE * jnp.log1p(DISTANCE * root)
+        pairs = (self._second(slopes, root) + charge * self._third(slopes)).reshape(len(positive), -1)
+        return -GAS_CONSTANT * (alone + 2.0 * cations @ pairs @ anions)
 
-    def _levels(self, T: Any) -> Any:
+    def _second(self, slopes: _Slopes, root: Any) -> Any:
+        exponents = np.array([m.activity.exponents for row in self.pairs for m in row])
+        zero, one, two = (slopes.each[:, k] for k in range(3))
+        return zero + one * fading(exponents[:, 0] * root) + two * fading(exponents[:, 1] * root)
+
+    def _third(self, slopes: _Slopes) -> Any:
+        products = np.outer(*(np.array(z, dtype=float) for z in self.charges)).ravel()
+        return slopes.each[:, 3] / (2.0 * np.sqrt(products))
+
+    def _levels(self, slopes: _Slopes) -> Any:
         """Of a mole of each salt: it counts elsewhere with the heat capacity that it has in a strong
         solution; sums over ions where those of four salts are.
         """
-        levels = jnp.stack([law.level(T) for law in self.salts])
+        p, q = np.array([m.activity.counts for row in self.pairs for m in row], dtype=float).T
+        zc, za = np.array([m.activity.charges for row in self.pairs for m in row], dtype=float).T
+        strong = np.array([m.strong for row in self.pairs for m in row], dtype=float)
+        strength = 0.5 * (p * zc**2 + q * za**2)
+        root = np.sqrt(strength * strong)
+        alone = -4.0 * strength / DISTANCE * np.log1p(DISTANCE * root) * slopes.each_far
+        pairs = self._second(slopes, root) + strong * p * zc * self._third(slopes)
+        strongest = -GAS_CONSTANT * (alone + 2.0 * strong * p * q * pairs)
+        levels = (np.array(self.room) - strongest)[np.array(self.places)]
         made = np.array(self.exchange)
         if not made.any():
             return levels
