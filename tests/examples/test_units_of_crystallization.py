@@ -332,3 +332,45 @@ def test_freeze_concentration() -> None:
     unit = "suspension_melt_crystallizer"
     assert run.figure(f"{unit}.product_mass_flow") * 3.6 == pytest.approx(1 - 12 / 45, rel=0.02)
     assert run.figure(f"{unit}.impurity_fraction_residue") == pytest.approx(0.45, rel=0.02)
+
+
+def test_vessels_of_two_sizes_by_zwietering() -> None:
+    """cheresources.com and myengineeringtools.com print Zwietering's rule: of the same magma in vessels alike
+    the speed that just suspends falls with the diameter to the power of 0.85; by hand to 0.271 in a hundred
+    times the volume, where tips go 1.26 times as fast.
+    """
+    speeds, tips = [], []
+    for volume, flow in (("0.1 m3", "100 kg/h"), ("10 m3", "10 t/h")):
+        run = crystallized(
+            "potassium chloride",
+            "potassium chloride",
+            0.35,
+            flow,
+            temperature="293 K",
+            volume=volume,
+            feed={"temperature": "363 K"},
+        )
+        speeds.append(run.figure("msmpr.rotation_speed_suspension"))
+        tips.append(run.figure("msmpr.tip_speed"))
+    assert speeds[1] / speeds[0] == pytest.approx(100 ** (-0.85 / 3), rel=0.01)
+    assert tips[1] / tips[0] == pytest.approx(100 ** (0.15 / 3), rel=0.01)
+
+
+def test_seeded_batch_grows_by_the_cube_root() -> None:
+    """Mullin, ch. 9 (recalled): where nothing is born, seed of M grows to the cube root of how many times its
+    mass the crop has with it.
+    """
+    run = solved(
+        "crystallization.batch_crystallizer",
+        seed_mass_per_solvent="2 g/kg",
+        seed_size="100 um",
+        seed_width="2 um",
+        nucleation={"law": "secondary_nucleation", "nucleation_coefficient": 1e-6, "nucleation_order": 1.78},
+    )
+    unit = "batch_crystallizer"
+    seed = 2e-3 * 0.67 * 149.3 / 3600
+    crop = run.figure(f"{unit}.crystal_flow")
+    assert crop > 10 * seed
+    assert run.figure(f"{unit}.mean_diameter_mass") == pytest.approx(
+        100e-6 * (crop / seed) ** (1 / 3), rel=0.01
+    )
