@@ -256,6 +256,17 @@ def test_two_hundred_brines() -> None:
     assert np.all((capacities + warmer)[2:] > 0.0)
 
 
+def test_series_of_temperatures_and_liquors_are_as_each() -> None:
+    """Dryers ask for a liquor, as a list, at the temperatures of all cells and classes."""
+    mixture = together("sodium chloride", "magnesium chloride")
+    T, salt = np.linspace(280.0, 370.0, 6).reshape(3, 1, 2), np.linspace(0.0, 0.3, 2)
+    found = np.asarray(mixture.heat_of_mixing([1.0, salt, 0.1], T))
+    assert found.shape == (3, 1, 2)
+    for i in np.ndindex(3, 1, 2):
+        each = mixture.heat_of_mixing(np.array([1.0, salt[i[2]], 0.1]), T[i])
+        assert found[i] == pytest.approx(float(each), rel=1e-12)
+
+
 def test_salts_of_which_one_is_not_known_are_without_it() -> None:
     """And their crystals hold what they hold over solutions whose parts add up."""
     alone = together("magnesium chloride", solids=("magnesium chloride hexahydrate",))

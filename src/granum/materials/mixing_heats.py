@@ -5,7 +5,7 @@ Elsewhere the enthalpies of solvent and solute add up, and diluting gives off no
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -165,9 +165,18 @@ class IonMixing(eqx.Module):
             tuple(exchange.get(name, 0.0) for name in dissolved),
         )
 
-    def __call__(self, temperature: Any, solutes: Any, solvent: Any) -> Any:
-        """What these amounts (kg or kg/s) hold over their parts, J or W; nothing in much water at 25 °C."""
-        moles, slopes = solutes / np.array(self.masses), self._slopes(jnp.asarray(temperature, dtype=float))
+    def __call__(self, temperature: Any, solutes: Sequence[Any], solvent: Any) -> Any:
+        """What these amounts (kg or kg/s, or series of them) hold over their parts, J or W; nothing in much
+        water at 25 °C.
+        """
+
+        def held(T: Any, water: Any, *salts: Any) -> Any:
+            return self._held(T, jnp.stack(salts), water)
+
+        return jnp.vectorize(held)(jnp.asarray(temperature, dtype=float), solvent, *solutes)
+
+    def _held(self, T: Any, solutes: Any, solvent: Any) -> Any:
+        moles, slopes = solutes / np.array(self.masses), self._slopes(T)
         total = jnp.sum(solutes)
         ions = safe_divide(moles @ np.array(self.table, dtype=float), total, 0.0)
         share = self._share(ions)  # of the strongest solution, in one of a kilogram of salts per kg of water
@@ -179,12 +188,15 @@ class IonMixing(eqx.Module):
         )
         return total * (held + slope) + jnp.sum(moles * self._levels(slopes))
 
-    def heard(self, temperature: Any, solutes: Any, solvent: Any) -> None:
+    def heard(self, temperature: Any, solutes: Sequence[Any], solvent: Any) -> None:
         """Flag a solution outside the temperatures of the activities, or with more of the ions of a salt than
         it alone is known with.
         """
-        moles = solutes / np.array(self.masses)
-        ions = safe_divide(moles @ np.array(self.table, dtype=float), solvent, 0.0)
+        moles = [x / mass for x, mass in zip(solutes, self.masses, strict=True)]
+        ions = [
+            safe_divide(sum(n * x for n, x in zip(column, moles, strict=True)), solvent, 0.0)
+            for column in zip(*self.table, strict=True)
+        ]
         for j, row in enumerate(self.pairs):
             for k, law in enumerate(row):
                 p, q = law.activity.counts

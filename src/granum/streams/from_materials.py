@@ -129,7 +129,7 @@ class Mixing:
         if self.ions is None:
             return held
         law, salts, water = self.ions
-        return held + law(temperature, flows[np.array(salts)], flows[water])
+        return held + law(temperature, [flows[i] for i in salts], flows[water])
 
     @property
     def solutes(self) -> tuple[int, ...]:
@@ -142,7 +142,7 @@ class Mixing:
             law.heard(temperature, flows[solute], flows[solvent])
         if self.ions is not None:
             law, salts, water = self.ions
-            law.heard(temperature, flows[np.array(salts)], flows[water])
+            law.heard(temperature, [flows[i] for i in salts], flows[water])
 
 
 def _salts(systems: Mapping[str, SoluteSystem]) -> dict[str, Ions]:
