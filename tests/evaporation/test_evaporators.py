@@ -300,19 +300,29 @@ def test_the_melt_of_caustic_soda_monohydrate_freezes_with_the_heat_of_its_liquo
 
 
 def test_a_heat_of_dilution_that_is_left_out_is_told_where_it_matters():
-    """Of magnesium chloride thickened from 30 to 35 % beside potassium chloride, as several salts are without
-    it; not of table salt.
+    """Of magnesium chloride thickened from 30 to 35 % beside ammonium chloride, whose heat is not known; not
+    beside potassium chloride, as that of both counts.
     """
     one = Evaporator("20 m2", "20 kPa", "2 bar", heat_transfer_coefficient=1500.0)
     told = {}
-    for name, strong in (("magnesium chloride", 0.3), ("sodium chloride", 0.1)):
-        salts = [name, "potassium chloride"]
-        solids = ["potassium chloride", "carnallite" if name == "magnesium chloride" else name]
-        liquor = mixture_of(["water", *salts], solids, ["water"], (1e-5, 1e-3))
-        lye = {name: strong, "water": 0.99 - strong, "potassium chloride": 0.01}
+    for name in ("ammonium chloride", "potassium chloride"):
+        liquor = mixture_of(["water", "magnesium chloride", name], [], ["water"], (1e-5, 1e-3))
+        lye = {"magnesium chloride": 0.3, "water": 0.69, name: 0.01}
         told[name] = one.operate(feed=feed(liquor, liquid_flow=3.0, temperature="60 degC", liquid=lye))
-    assert any("heat of dilution" in reason for reason in reasons(told["magnesium chloride"]))
-    assert not any("heat of dilution" in reason for reason in reasons(told["sodium chloride"]))
+    assert any("heat of dilution" in reason for reason in reasons(told["ammonium chloride"]))
+    assert not any("heat of dilution" in reason for reason in reasons(told["potassium chloride"]))
+
+
+def test_brine_of_two_salts_boils_with_its_heat_of_dilution():
+    """Beside a salt that is not there as alone."""
+    one = Evaporator("20 m2", "20 kPa", "2 bar", heat_transfer_coefficient=1500.0)
+    found = []
+    for salts in (["magnesium chloride"], ["magnesium chloride", "sodium chloride"]):
+        liquor = mixture_of(["water", *salts], [], ["water"], (1e-5, 1e-3))
+        lye = {"magnesium chloride": 0.2, "water": 0.8, **dict.fromkeys(salts[1:], 0.0)}
+        out = one.operate(feed=feed(liquor, liquid_flow=3.0, temperature="60 degC", liquid=lye))
+        found.append(float(out.figures.evaporation_rate))
+    assert found[1] == pytest.approx(found[0], rel=1e-4)
 
 
 def test_a_liquor_stronger_than_the_data_at_its_temperature_is_told():

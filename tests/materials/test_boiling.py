@@ -76,6 +76,30 @@ def test_osmotic_coefficients_at_room_temperature(solute, molality, osmotic):
     assert found == pytest.approx(osmotic, rel=0.015)
 
 
+@pytest.mark.parametrize(
+    ("solute", "zero", "one", "c_phi", "counts", "charges", "most"),
+    [
+        ("ammonium sulfate", 0.0545 * 0.75, 0.878 * 0.75, -0.00219 * 3 / 2**2.5, (2, 1), (1, 2), 5.5),
+        ("sodium nitrate", 0.0068, 0.1783, -0.00072, (1, 1), (1, 1), 6.0),
+        ("potassium nitrate", -0.0816, 0.0494, 0.0066, (1, 1), (1, 1), 3.8),
+        ("ammonium nitrate", -0.0154, 0.112, -0.00003, (1, 1), (1, 1), 6.0),
+    ],
+)
+def test_ammonium_sulfate_and_nitrates_as_pitzer_and_mayorga_have_them(
+    solute, zero, one, c_phi, counts, charges, most
+):
+    """At 25 °C, by their table (1973) as it stands in pytzer (opened); the library has other sources."""
+    system, (p, q), (zc, za) = gr.materials.solute(solute), counts, charges
+    for m in np.linspace(0.1, most, 8):
+        root = np.sqrt(0.5 * m * (p * zc**2 + q * za**2))
+        pairs = m * 2 * p * q / (p + q) * (zero + one * np.exp(-2.0 * root))
+        triples = m**2 * 2 * (p * q) ** 1.5 / (p + q) * c_phi
+        printed = 1.0 - zc * za * 0.3915 * root / (1.0 + 1.2 * root) + pairs + triples
+        activity = system.solvent_activity(298.15, m * system.molar_mass)
+        found = -float(jnp.log(activity)) / ((p + q) * m * 0.01801528)
+        assert found == pytest.approx(printed, rel=0.017)
+
+
 @pytest.mark.parametrize("solute", SOLUTES)
 def test_boiling_rises_with_concentration_far_beyond_the_data(solute):
     system = gr.materials.solute(solute)

@@ -35,6 +35,7 @@ from granum.streams.stream import Stream, empty
 TOLD = 0.02  # of a duty: heats of dilution beyond that are told
 DILUTION = "The heat of dilution of this liquor is left out; it is more than 2 % of the duty here."
 PASSES = 8  # of Newton's method, for what a liquor takes as it thickens
+REPEATS = 14  # of the same by repeated substitution, where salts crystallize together
 SPAN = 80.0  # K above the boiling point of the solvent within which a solution is sought that boils
 
 
@@ -296,12 +297,22 @@ def _boil_together(liquor: Liquor, salts: Salts, feed: Stream, chest: Any, pure:
     dissolved = salts.all_dissolved(feed)
     places = np.array((*salts.liquids, 0))
 
-    def gone(T: Any) -> tuple[Any, Any]:
+    def gone(T: Any, n: Any) -> Any:
         liquid, solid, gas = (mixture.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
         latent = gas[liquor.vapor] - liquid[0]
         lower = solid[solids] * masses - salts.made_of @ liquid[places]
-        given = feed.enthalpy_flow + wall * (chest - T) - feed.enthalpy_at(T) + lower @ before
-        return given / latent, lower / latent
+        given = feed.enthalpy_flow + wall * (chest - T) - feed.enthalpy_at(T) + lower @ (before - n)
+        if mixture.mixing is None:
+            return given / latent
+        held = mixture.heat_of_mixing(feed.liquid, T)
+        staying = dissolved.at[places].add(-(n @ salts.made_of))
+        limit = DRIEST * staying[0]
+
+        def step(_pass: Any, evaporated: Any) -> Any:  # a liquor takes far less than the latent heat of water
+            left = staying.at[0].add(-jnp.clip(evaporated, 0.0, limit))
+            return (given + held - mixture.heat_of_mixing(left, T)) / latent
+
+        return jax.lax.fori_loop(0, REPEATS, step, given / latent)
 
     def excess(T: Any, log_water: Any, fraction: Any) -> Any:
         if liquor.elevation is not None:
@@ -317,7 +328,9 @@ def _boil_together(liquor: Liquor, salts: Salts, feed: Stream, chest: Any, pure:
 
 
 def _boil_alone(liquor: Liquor, feed: Stream, chest: Any, pure: Any, wall: Any) -> Any:
-    """Boiling temperature, what happens there, and whether it was found, where one solute crystallizes."""
+    """Boiling temperature, what happens there, and whether it was found, where one solute crystallizes or
+    none.
+    """
     hottest = jnp.maximum(jnp.maximum(chest, feed.temperature), pure) + SPAN
 
     def excess(T: Any) -> Any:
@@ -327,6 +340,9 @@ def _boil_alone(liquor: Liquor, feed: Stream, chest: Any, pure: Any, wall: Any) 
     made = liquor.split(feed, wall * (chest - root.value), root.value)
     # once more where its flags are heard; no solution boils where one crystal gives way to another
     boils = jnp.abs(liquor.excess(root.value, pure, made.liquid)) < 1e-6
+    if liquor.salts is not None:
+        molalities = liquor.salts.ions(made.liquid) / jnp.maximum(made.liquid[0], 1e-300)
+        liquor.salts.heard(root.value, molalities)
     return root.value, made, root.converged & boils
 
 
@@ -335,10 +351,9 @@ def boil(liquor: Liquor, feed: Stream, chest: Any, pure: Any, conductance: Any, 
     a conductance (W/K).
     """
     mixture = liquor.mixture
-    if liquor.salts is not None:
+    if liquor.salts is not None and liquor.salts.forming:
         T, made, found = _boil_together(liquor, liquor.salts, feed, chest, pure, conductance)
-        crystals = jnp.stack(made.crystals) if made.crystals else jnp.zeros(0)
-        solid = liquor.salts.crystallized(feed, crystals, sizes)
+        solid = liquor.salts.crystallized(feed, jnp.stack(made.crystals), sizes)
         grown = jnp.sum(jnp.maximum(jnp.sum(solid - feed.solid, axis=tuple(range(1, solid.ndim))), 0.0))
     else:
         T, made, found = _boil_alone(liquor, feed, chest, pure, conductance)

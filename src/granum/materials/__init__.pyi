@@ -160,6 +160,7 @@ from granum.materials.library import (
 from granum.materials.mixing_heats import (
     CausticMixing as CausticMixing,
     ElectrolyteMixing as ElectrolyteMixing,
+    IonMixing as IonMixing,
 )
 from granum.materials.pairs import (
     GasVapor as GasVapor,

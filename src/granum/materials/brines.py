@@ -143,14 +143,13 @@ class Equilibrium(NamedTuple):
 class Boiling(NamedTuple):
     """What makes a brine boil.
 
-    gone: at a temperature, the kg of water that would evaporate if nothing crystallized, and how many less a
-        mole of each crystal takes away.
+    gone: at a temperature, the kg of water that evaporate where so many mol of each crystal have formed.
     excess: how far the solution lies above its boiling point, from temperature, logarithm of the activity of
         water, and mass fraction of what is dissolved.
     most: the largest share of the water that evaporates.
     """
 
-    gone: Callable[[Any], tuple[Any, Any]]
+    gone: Callable[[Any, Any], Any]
     excess: Callable[[Any, Any, Any], Any]
     most: float
 
@@ -356,8 +355,7 @@ class Brine(eqx.Module):
         def gone(t: Any, n: Any) -> Any:
             if boiling is None:
                 return jnp.zeros(())
-            all_, less = boiling.gone(t)
-            return jnp.clip(all_ / whole - less @ n, 0.0, boiling.most)
+            return jnp.clip(boiling.gone(t, n * whole) / whole, 0.0, boiling.most)
 
         def split(x: Any) -> tuple[Any, Any, Any, Any]:
             t, n = (T, x) if boiling is None else (T + x[-1], x[:-1])
@@ -440,7 +438,7 @@ def brine(names: Sequence[str], materials: Library | None = None) -> Brine:
 
 def salts_of_pairs() -> list[str]:
     """The salts of the library that are known beside another one, by name."""
-    names = [system.name for system in _every_salt(session())]
+    names = [system.name for system in salts_of_ions(session())]
     return [one for one in names if any(one != other and find_brine((one, other)) for other in names)]
 
 
@@ -459,7 +457,7 @@ def _brine(names: tuple[str, ...], known: Library) -> Brine | None:
         like not in theta or any((like, other) not in psi for other in others[like]) for like in mixed
     ):
         return None
-    by_ions = {(p.cation, p.anion): s for s in _every_salt(known) if (p := ions_of(s.formula))}
+    by_ions = {(p.cation, p.anion): s for s in salts_of_ions(known) if (p := ions_of(s.formula))}
     salts = list(given)
     for pair in ((c, a) for c in cations for a in anions):
         if pair not in by_ions:
@@ -487,7 +485,7 @@ def _brine(names: tuple[str, ...], known: Library) -> Brine | None:
 
 
 @lru_cache(maxsize=8)
-def _every_salt(known: Library) -> tuple[SoluteSystem, ...]:
+def salts_of_ions(known: Library) -> tuple[SoluteSystem, ...]:
     """Salts of the library of ions that are known beside others."""
     ions = frozenset().union(*THETA)
     return tuple(

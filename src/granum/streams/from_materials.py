@@ -23,16 +23,17 @@ from granum.core.compiling import once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, quoted
-from granum.materials.brines import SOLVENT
+from granum.materials.brines import SOLVENT, salts_of_ions
 from granum.materials.correlation import Correlation
 from granum.materials.double_salts import DOUBLE_SALTS, DoubleSalt, in_salts
 from granum.materials.fluids import Fluid
 from granum.materials.formulas.activity import WATER
-from granum.materials.ions import ions_of
+from granum.materials.ions import Ions, ions_of
 from granum.materials.library import Library, session, stated
+from granum.materials.mixing_heats import ElectrolyteMixing, IonMixing
 from granum.materials.solids import Solid
 from granum.materials.solutes import SoluteSystem
-from granum.streams.exchange import by_ions
+from granum.streams.exchange import by_ions, reciprocal
 from granum.streams.mixture import AIR, STEAM, Mixture, Species, carrier_of
 
 COLDEST, HOTTEST = 263.15, 423.15  # K, over which condensed-phase properties are taken as polynomials
@@ -70,7 +71,7 @@ def mixture_of(
     systems = {
         name: system for name in liquids[1:] if (system := solute_system(known, name, liquids)) is not None
     }
-    systems = _mixed(systems)
+    systems, together = _mixed(known, systems)
     dissolved = tuple(
         _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
     )
@@ -94,7 +95,7 @@ def mixture_of(
         gas_viscosity=GasProperty(known, carrier, vapor, "vapor_viscosity") if carrier else None,
         gas_conductivity=GasProperty(known, carrier, vapor, "vapor_conductivity") if carrier else None,
         materials=known,
-        mixing=Mixing.of(systems, liquids),
+        mixing=Mixing.of(systems, liquids, together),
     )
 
 
@@ -102,47 +103,82 @@ def mixture_of(
 class Mixing:
     """Heats of mixing of the solutes that have one, each with all there is of its solvent.
 
-    ``pairs``: the law, and the places of solute and solvent among the liquids.
+    ``pairs``: the law, and the places of solute and solvent among the liquids; ``ions``: the law of several
+    salts, their places and that of the water.
     """
 
     pairs: tuple[tuple[Any, int, int], ...]
+    ions: tuple[IonMixing, tuple[int, ...], int] | None = None
 
     @classmethod
-    def of(cls, systems: Mapping[str, SoluteSystem], liquids: Sequence[str]) -> Mixing | None:
+    def of(
+        cls, systems: Mapping[str, SoluteSystem], liquids: Sequence[str], together: IonMixing | None
+    ) -> Mixing | None:
         """Of a mixture; None where all enthalpies add up."""
         places = {name: i for i, name in enumerate(liquids)}
+        salts = _salts(systems) if together is not None else {}
         pairs = tuple(
             (system.mixing_law, places[name], places[system.solvent.name])
             for name, system in systems.items()
-            if system.mixing_law is not None
+            if system.mixing_law is not None and name not in salts
         )
-        return cls(pairs) if pairs else None
+        ions = None if together is None else (together, tuple(places[n] for n in salts), places[SOLVENT])
+        return cls(pairs, ions) if pairs or ions else None
 
     def __call__(self, flows: Any, temperature: Any) -> Any:
-        return sum(law(temperature, flows[solute], flows[solvent]) for law, solute, solvent in self.pairs)
+        held = sum(law(temperature, flows[solute], flows[solvent]) for law, solute, solvent in self.pairs)
+        if self.ions is None:
+            return held
+        law, salts, water = self.ions
+        return held + law(temperature, [flows[i] for i in salts], flows[water])
 
     @property
     def solutes(self) -> tuple[int, ...]:
         """The places of those that have one."""
-        return tuple(solute for _law, solute, _solvent in self.pairs)
+        return tuple(solute for _law, solute, _solvent in self.pairs) + (self.ions[1] if self.ions else ())
 
     def heard(self, flows: Any, temperature: Any) -> None:
         """Flag liquors outside the data of the laws."""
         for law, solute, solvent in self.pairs:
             law.heard(temperature, flows[solute], flows[solvent])
+        if self.ions is not None:
+            law, salts, water = self.ions
+            law.heard(temperature, [flows[i] for i in salts], flows[water])
 
 
-def _mixed(systems: dict[str, SoluteSystem]) -> dict[str, SoluteSystem]:
-    """The solutes, of several salts together those without the heat of mixing that each has alone."""
-    salts = [name for name, system in systems.items() if ions_of(system.formula) is not None]
+def _salts(systems: Mapping[str, SoluteSystem]) -> dict[str, Ions]:
+    """The solutes that are salts, with their ions."""
+    found = {name: ions_of(system.formula) for name, system in systems.items()}
+    return {name: ions for name, ions in found.items() if ions is not None}
+
+
+def _mixed(
+    known: Library, systems: dict[str, SoluteSystem]
+) -> tuple[dict[str, SoluteSystem], IonMixing | None]:
+    """The solutes, and of several salts the heat of mixing that they have together; where it is not known,
+    they are without that which each has alone.
+    """
+    salts = _salts(systems)
     if len(salts) < 2:
-        return systems
+        return systems, None
+    together = None
+    if all(isinstance(systems[name].mixing_law, ElectrolyteMixing) for name in salts):
+        formulas = {name: systems[name].formula for name in salts}
+        laws = {
+            (ions.cation, ions.anion): system.mixing_law
+            for system in (*salts_of_ions(known), *(systems[name] for name in salts))
+            if isinstance(system.mixing_law, ElectrolyteMixing)
+            and (ions := ions_of(system.formula)) is not None
+        }
+        together = IonMixing.of(salts, laws, reciprocal(list(salts), formulas))
+    if together is not None:
+        return systems, together
     return {
         name: replace(system, mixing_law=None)
         if system.mixing_law is not None and not system.mixing_law.others
         else system
         for name, system in systems.items()
-    }
+    }, None
 
 
 def solute_system(known: Library, name: str, solvents: Sequence[str]) -> SoluteSystem | None:
@@ -288,7 +324,8 @@ def _double_enthalpy(
     double: DoubleSalt, solid: Solid, masses: dict[str, float], systems: Mapping[str, SoluteSystem], T: Any
 ) -> Any:
     """Of a mole of a double salt, less that by its heat capacity from 0 °C on. Its heat of solution, one of
-    infinite dilution, is brought to saturation as those of the crystals of its salts are.
+    infinite dilution, is brought to saturation as those of the crystals of its salts are, where these are
+    without a heat of mixing.
     """
     solvent = next(iter(systems.values())).solvent
     parts = {n: m for n, m in masses.items() if n in systems}
@@ -300,8 +337,10 @@ def _double_enthalpy(
 
 def _strong(system: SoluteSystem, T: Any) -> Any:
     """What the crystal of a salt that is stable in a room takes up in its saturated solution over that in
-    much water, J/kg.
+    much water, J/kg; nothing where the solution holds it.
     """
+    if system.mixing_law is not None:
+        return 0.0
     stable = sum(b.stable_from <= ROOM for b in system.branches[1:])
     return system.heat_of_crystallization(T) - system.branches[stable].heat_dilute
 

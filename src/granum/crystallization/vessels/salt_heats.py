@@ -137,8 +137,8 @@ def heat_of_dilution(
     sulfate: with these the slopes agree with calorimetry at 25 °C, within 210 J/mol for the first two, within
     an eighth for the others; no measured heats of mixtures were compared.
 
-    The energy balances of units count this heat where one salt is dissolved; of several they leave it out,
-    the dissolved ones as in the saturated solution of each.
+    The energy balances of units count this heat, that of several salts by the same slopes but for what like
+    ions do to each other, which they take as the same at all temperatures; calcium chloride's too.
     Saturated salt brine that is thinned takes up 34 kJ per kg of salt, 9 per kg of brine; with magnesium
     chloride it is 210 per kg of salt, given off.
 
@@ -207,8 +207,8 @@ def heat_of_solution(
     sulfate decahydrate and magnesium chloride hexahydrate.
 
     Energy balances of units take that of the saturated solution at 25 °C, and from there the heat of dilution
-    and the heat capacities of crystal and solution, so that they agree for one salt. Beside a second salt
-    they leave the heat of dilution out, and one heat of crystallization holds at all concentrations.
+    and the heat capacities of crystal and solution, so that they agree for one salt; the last output is that
+    of the salt alone. Beside a second salt the balances count the heat of dilution of both.
 
     >>> out = heat_of_solution("25 degC", 0.35, first_salt="potassium chloride")
     >>> round(float(out.enthalpy_of_dissolution_dilute) / 1e3, 2)

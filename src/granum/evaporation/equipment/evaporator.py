@@ -228,7 +228,7 @@ class Evaporator(_Single):
     the product is just saturated and fresh crystals have the given sizes: kinetics are those of the
     crystallizers; of several crystals of that solute the one forms that is stable at the boiling temperature.
     The pressure of the liquid column is left out. Heats of dilution count for the solutes that have a heat of
-    mixing in the library, alone; where others' are more than 2 % of the duty it is told.
+    mixing in the library, salts also together; where others' are more than 2 % of the duty it is told.
     """
 
     def inside(self, feed: Stream) -> tuple[Liquor, Effect, Any]:
