@@ -328,6 +328,8 @@ _PRETTY = {
     "inch": "in",
     "gallon": "gal",
     "short_ton": "short ton",
+    "darcy": "D",
+    "millidarcy": "mD",
 }
 _FRENCH = {"day": "j", "year": "an", "rpm": "tr/min", "revolution": "tr"}
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
