@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -15,6 +14,7 @@ from rich.text import Text
 import granum
 from granum.core.i18n import _
 from granum.core.units import format_number, from_si, pretty_unit
+from granum.reports.dates import date_text
 from granum.reports.templating import page
 from granum.reports.terminal import CAUTION, OK, OUT, _console, _table
 from granum.studies.outcome import Outcome, kind_in_words
@@ -405,7 +405,7 @@ def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -
         )
     block = [
         (_("Model"), outcomes[0].cases.subject.title),
-        (_("Date"), datetime.date.today().isoformat()),
+        (_("Date"), date_text()),
         (_("Program"), f"Granum {granum.__version__}"),
     ]
     return page(

@@ -112,7 +112,7 @@ function Cards({ go }) {
     const found = cards.find((c) => named(c) === text);
     if (found) go('card:' + found.card);
   };
-  return html`<label>${t('or of a card')} <input type="search" list="study-cards" placeholder=${t('Type its title')} data-cards onFocus=${load} onInput=${(e) => choose(e.target.value)} /></label><datalist id="study-cards">${cards.map((c) => html`<option value=${named(c)} />`)}</datalist>`;
+  return html`<label class="screen">${t('or of a card')} <input type="search" list="study-cards" placeholder=${t('Type its title')} data-cards onFocus=${load} onInput=${(e) => choose(e.target.value)} /></label><datalist id="study-cards">${cards.map((c) => html`<option value=${named(c)} />`)}</datalist>`;
 }
 
 function Form({ place, head, subject, choices }) {
@@ -175,7 +175,7 @@ function Form({ place, head, subject, choices }) {
     ${kind === 'sobol' && designed(setup) && html`<p class="small dim" data-design>${explained(designed(setup))}</p>`}`
     }
     <div class="row"><button class="button main" disabled=${job.running || starting || lacking} onClick=${run}>${t('Run the study')}</button></div>
-    <p class="small dim">${t('A study runs on when you leave this page or close it; after an hour it is stopped, and what it has computed is kept.')}</p>
+    <p class="small dim screen">${t('A study runs on when you leave this page or close it; after an hour it is stopped, and what it has computed is kept.')}</p>
     <${Past} past=${past} open=${open} /></section>
     <section aria-label=${t('Believe')}><${Working} busy=${job.running} cancel=${job.cancel} share=${job.share} text=${job.note || t('Working…')} />
       ${job.error && html`<p class="message out" role="alert">${job.error}</p>`}
