@@ -148,8 +148,12 @@ export const html = (parts, ...values) =>
 export function t(text, values = {}) {
   const found =
     settings.language === 'fr' ? (french[text] ? spaced(french[text]) : text) : english[text] || text;
-  return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
+  return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? counted(values[name]) : whole));
 }
+
+/** A large count with its thousands apart, as the server writes it. */
+const counted = (value) =>
+  Number.isInteger(value) && value >= 10_000 ? String(value).replace(/\B(?=(\d{3})+$)/g, '\u202f') : value;
 
 // ---- requests -------------------------------------------------------------------------------------
 const ATTEMPTS = 3;

@@ -353,6 +353,11 @@ export const french = {
     '{cases} cas pour {asked} échantillons : la puissance de deux suivante, {base}, trois fois.',
   'Past studies of this browser': 'Études passées de ce navigateur',
   'stopped early': 'interrompue',
+  'so far': 'jusqu’ici',
+  'Reading what may vary and what may be watched…': 'Lecture de ce qui peut varier et de ce qui peut être observé…',
+  'Show what there is so far': 'Voir les premiers résultats',
+  'Show what there is by now': 'Actualiser ces résultats',
+  'Reading…': 'Lecture…',
   'The last {count} are kept, in this browser only.':
     'Les {count} dernières sont gardées, dans ce navigateur seulement.',
   'Remove all': 'Tout retirer',
