@@ -184,7 +184,7 @@ function Form({ place, head, subject, choices }) {
       ${job.unkept && html`<p class="message caution">▲ ${t('This browser could not keep the result: download the cases before you leave.')}</p>`}
       ${
         job.running && job.part
-          ? html`<div data-part><${Outcome} data=${job.part} question=${job.asking} /></div>`
+          ? html`<div data-so-far><${Outcome} data=${job.part} question=${job.asking} /></div>`
           : job.outcome &&
         html`${old && html`<p class="message caution" data-old>▲ ${t('What follows answers an earlier question. Run the study to answer the one on the left.')}</p>`}
         <div class=${old ? 'stale' : ''}><${Outcome} data=${job.outcome} question=${job.question} /></div>`
