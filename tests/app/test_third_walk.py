@@ -300,3 +300,32 @@ def test_squares_and_cubes_are_printed_as_such(page: Page) -> None:
     assert not [label for label in labels if re.search(r"m\^?[23]", label)]
     told = page.browser.execute_script("return document.querySelector('main').innerText")
     assert not re.search(r"\b[dcmk]?m\^?[23]\b", told)
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_the_open_page_is_seen_in_the_row_of_a_phone(page: Page, language: str) -> None:
+    """Also where a page comes into the row after it was drawn."""
+    page.open("exercises", language, width=390)
+    page.until(lambda: page.all("header nav a[href*=select]"))
+    page.until(
+        lambda: page.browser.execute_script(
+            "const box = document.querySelector('header nav [aria-current]').getBoundingClientRect();"
+            "return box.left >= 0 && box.right <= innerWidth"
+        )
+    )
+    page.check()
+
+
+def test_what_a_domain_holds_stands_in_the_order_of_its_titles(page: Page) -> None:
+    page.open("home/filtration", "fr")
+    page.one("main ul.several li")
+    page.settle()
+    lists = page.browser.execute_script(
+        "return [...document.querySelectorAll('main ul.several')].map((u) => "
+        "[...u.querySelectorAll(':scope > li > a')].map((a) => a.textContent))"
+    )
+    sorted_ones = page.browser.execute_script(
+        "return arguments[0].map((l) => [...l].sort((a, b) => a.localeCompare(b, 'fr')))", lists
+    )
+    assert len(lists) > 3
+    assert lists == sorted_ones
