@@ -1,5 +1,5 @@
-"""What a walk through the whole page found: steps from one page to another that can be taken back, links, what
-is copied, sheets of A4, studies looked at before their end.
+"""What a walk through the whole page found: steps from one page to another that can be taken back, links,
+what is copied, sheets of A4, studies looked at before their end.
 """
 
 from __future__ import annotations
@@ -79,7 +79,8 @@ def test_a_link_that_takes_the_place_of_another_line_gives_it_back(page: Page) -
 
 
 HEARD = """
-    addEventListener('copy', () => { window.heard = document.activeElement.value ?? String(getSelection()); });
+    const marked = () => document.activeElement.value ?? String(getSelection());
+    addEventListener('copy', () => { window.heard = marked(); });
     navigator.clipboard.writeText = arguments[0]
       ? (text) => { window.heard = text; return Promise.resolve(); }
       : () => Promise.reject(new Error('not here'));
@@ -133,7 +134,9 @@ def test_a_value_is_copied_with_all_its_digits(page: Page, given: bool) -> None:
 def test_what_was_not_copied_is_not_said_to_be(page: Page) -> None:
     page.open(STOKES, "en")
     page.one("[data-output]")
-    page.browser.execute_script(HEARD + "document.execCommand = () => { window.tried = true; return false; };")
+    page.browser.execute_script(
+        HEARD + "document.execCommand = () => { window.tried = true; return false; };"
+    )
     page.one("button.copy").click()
     page.until(lambda: page.browser.execute_script("return window.tried"))
     page.settle()
@@ -275,7 +278,7 @@ def test_a_diagram_has_as_few_machines_side_by_side_as_its_names_need(page: Page
         page.settle()
         page.until(
             lambda: page.browser.execute_script(
-                "const [box, svg] = [document.querySelector('.diagram'), document.querySelector('.diagram svg')];"
+                "const box = document.querySelector('.diagram'), svg = box.querySelector('svg');"
                 "return Number(svg.dataset.across) === 1 || Number(svg.dataset.width) <= box.clientWidth"
             )
         )

@@ -406,3 +406,11 @@ def test_permeabilities_are_printed_as_they_are_read(unit: str, printed: str) ->
     kind = KINDS["Permeability"]
     read = [units.read_quantity(f"2 {word}", kind, "permeability") for word in (unit, printed)]
     assert read[0] == read[1]
+
+
+@pytest.mark.parametrize(
+    ("unit", "printed"),
+    [("dm2", "dm²"), ("kg/(m2*s)", "kg/(m²·s)"), ("cm-1", "cm⁻¹"), ("kg/m^3", "kg/m³"), ("mmH2O", "mmH2O")],
+)
+def test_powers_are_raised_as_they_were_typed(unit: str, printed: str) -> None:
+    assert units.pretty_unit(unit) == printed

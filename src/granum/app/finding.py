@@ -109,7 +109,11 @@ def _pages(code: str) -> Iterator[Document]:
         worth = BEHIND if found.language == code else BEHIND * FOREIGN
         said = [(TITLE, found.title), *_sort_words("page")]
         for one in (found, *([page(other)] if other else [])):
-            said += [(TITLE, one.title), *((NAME, heading) for heading in one.headings), (TEXT, one.text[:2000])]
+            said += [
+                (TITLE, one.title),
+                *((NAME, heading) for heading in one.headings),
+                (TEXT, one.text[:2000]),
+            ]
         yield document("page", name, said, worth)
 
 

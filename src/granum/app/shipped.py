@@ -12,7 +12,6 @@ import tomli
 import granum
 from granum.core.i18n import _
 
-
 _GUIDES = {  # the guides by what they are called in French; chapters have one name in both languages
     "adding-a-formula": "ajouter-une-formule",
     "adding-equipment": "ajouter-un-equipement",
