@@ -70,6 +70,10 @@ def test_a_sort_is_asked_for_by_its_name(code: str, asked: str, sort: str, about
     assert [hit for hit in first if hit["sort"] == sort and about in hit["title"]], first
 
 
+def test_a_slip_in_a_name_is_forgiven_where_a_description_has_the_word() -> None:
+    assert "porous.permeability_kozeny_carman" in [hit["key"] for hit in found("Karman", 5)]
+
+
 def test_pages_are_shown_in_the_language_of_the_reader() -> None:
     """By words of both languages, where the page stands in both."""
     for code, asked, key in (
