@@ -332,3 +332,32 @@ def test_what_a_domain_holds_stands_in_the_order_of_its_titles(page: Page) -> No
     )
     assert len(lists) > 3
     assert lists == sorted_ones
+
+
+@pytest.mark.parametrize("place", ["calculate", "lab", "charts"])
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_a_link_to_no_card_says_so_and_leads_to_what_may_be_meant(
+    page: Page, place: str, language: str
+) -> None:
+    page.open(f"{place}/filtration.leaf_tset", language)
+    page.says("main [role=alert]", "leaf_tset")
+    page.one("main section a[href*='leaf_test']").click()
+    page.until(lambda: "lab/filtration.leaf_test" in page.browser.current_url)
+    page.one("#table")
+    page.check(refused=True)
+
+
+def test_a_file_of_the_same_name_is_left_alone_until_told_otherwise(page: Page) -> None:
+    for title in ("Saved once", "Saved twice"):
+        page.open(carried(mud(title)), "en")
+        solved(page)
+        page.type("[aria-label='File name']", "kept.toml")
+        page.button("Save").click()
+        if title == "Saved once":
+            page.until(lambda: "Saved." in page.texts("[role=status]"))
+    page.until(lambda: "another file of this name" in page.text("[role=alert]"))
+    at = f"{page.address}/api/workspace/kept.toml"
+    assert "Saved once" in httpx.get(at, timeout=60).json()["text"]
+    page.button("Overwrite it").click()
+    page.until(lambda: not page.all("[role=alert]"))
+    page.until(lambda: "Saved twice" in httpx.get(at, timeout=60).json()["text"])

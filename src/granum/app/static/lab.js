@@ -19,7 +19,7 @@ import { Chapter } from './chapter.js';
 import { Plot, decoded } from './plot.js';
 import { UseInLine } from './lab_line.js';
 import { Field, changed, fields, missingOf } from './form.js';
-import { Finder, useCards } from './cards.js';
+import { Finder, NoCard, useCards } from './cards.js';
 import { inLanguage, unitLabel } from './quantity.js';
 
 export function Lab({ state }) {
@@ -27,13 +27,13 @@ export function Lab({ state }) {
   const key =
     state.key ||
     (cards?.some((c) => c.card === 'filtration.leaf_test') ? 'filtration.leaf_test' : cards?.[0]?.card);
-  const { data: card } = useAnswer(
+  const { data: card, error } = useAnswer(
     (signal) => (key ? ask(`/api/cards/${key}`, undefined, { signal }) : Promise.resolve(null)),
     [key, settings.language, settings.units],
     0,
   );
   return html`<main class="three" id="main"><${Finder} page="lab" current=${key} cards=${cards} />
-    ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
+    ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : error?.details ? html`<${NoCard} heading=${t('Lab data')} error=${error} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
 }
 
 function Test({ card, given }) {
