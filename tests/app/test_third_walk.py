@@ -241,6 +241,9 @@ def test_a_study_is_looked_at_while_it_runs(page: Page) -> None:
     page.says("[data-so-far]", "5 cases, each with a result · so far")
     page.one("[data-so-far] .main-svg")
     page.button("Show what there is by now")
+    for width, theme in ((1400, "light"), (390, "dark")):
+        page.turn(width, theme)
+        page.check()
     page.browser.execute_script("window.ended = true")
     page.until(lambda: not page.all("[data-so-far] .main-svg") and page.all("[data-study]"))
     page.says("[data-study]", "21 cases, each with a result")
