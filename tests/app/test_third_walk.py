@@ -364,3 +364,25 @@ def test_a_file_of_the_same_name_is_left_alone_until_told_otherwise(page: Page) 
     page.button("Overwrite it").click()
     page.until(lambda: not page.all("[role=alert]"))
     page.until(lambda: "Saved twice" in httpx.get(at, timeout=60).json()["text"])
+
+
+def test_a_search_that_takes_its_time_says_that_it_searches(page: Page) -> None:
+    page.open("home", "en")
+    page.browser.execute_script(
+        """
+        const real = window.fetch;
+        const held = new Promise((go) => { window.letGo = go; });
+        window.asked = [];
+        window.fetch = async (url, ...more) => {
+          if (String(url).includes('/api/search')) { window.asked.push(String(url)); await held; }
+          return real(url, ...more);
+        };
+        """
+    )
+    page.one("#seek").click()
+    page.until(lambda: page.browser.execute_script("return window.asked.some((url) => url.endsWith('q='))"))
+    page.type("#seek", "exercise dryer")
+    page.says(".seek .none", "Searching…")
+    page.browser.execute_script("window.letGo()")
+    page.until(lambda: page.all("#hits [role=option]"))
+    assert "Searching" not in page.text(".seek .none")

@@ -113,6 +113,7 @@ export const french = {
   'Undo': 'Annuler',
   'Example values': 'Valeurs d’exemple',
   'Copy link': 'Copier le lien',
+  'Searching…': 'Recherche…',
   'Open': 'Ouvrir',
   'This line is too long for a link: download its file and send that.': 'Cette ligne est trop longue pour un lien : téléchargez son fichier et envoyez-le.',
   'Another line was here under this name; Undo brings it back.': 'Une autre ligne était ici sous ce nom ; Annuler la ramène.',
