@@ -24,6 +24,7 @@ from granum.core.search import (
     Finder,
     card_documents,
     document,
+    sort_words,
     usual,
 )
 from granum.core.words import tokens
@@ -32,14 +33,6 @@ SHOWN = 40  # hits
 USUAL = 3  # of the most usual equipment, before what a search finds for an everyday word
 BEHIND = 0.9  # what is not a card itself
 FOREIGN = 0.75  # a page that is there in the other language only
-# what people call the sorts of things, before what the thing itself is about
-CALLED_SORT = {
-    "lab test": "lab test essai mesure laboratoire",
-    "chart": "chart plot diagramme graphique abaque",
-    "line": "line flowsheet example ligne schéma exemple",
-    "exercise": "exercise problem worked course exercice exercices problème corrigé cours TD",
-    "page": "chapter handbook guide course documentation chapitre manuel cours lecture",
-}
 LISTS = {  # tables shown by a card, with the column that names a row
     "drying.applications": ("drying", "applications_houdon2017", "product"),
     "drying.foods": ("drying", "foods_beuchat1981", "food"),
@@ -52,7 +45,7 @@ TAUGHT = 1.05  # of several laws for one thing, one that is learnt
 
 def _sort_words(sort: str) -> Iterator[tuple[float, str]]:
     """Each word by itself: whoever types one of them means no other."""
-    for word in CALLED_SORT.get(sort, "").split():
+    for word in sort_words(sort):
         yield DOMAIN, word
 
 

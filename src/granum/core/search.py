@@ -74,6 +74,17 @@ def _synonyms() -> tuple[list[list[tuple[str, ...]]], dict[str, list[str]]]:
 
 
 @cache
+def _sorts() -> dict[str, list[str]]:
+    text = (files("granum") / "core" / "synonyms.toml").read_text(encoding="utf-8")
+    return tomli.loads(text)["sorts"]
+
+
+def sort_words(sort: str) -> Sequence[str]:
+    """What people call a sort of things, in both languages, before what the thing itself is about."""
+    return _sorts().get(sort, ())
+
+
+@cache
 def _groups_by_word() -> dict[str, list[tuple[tuple[str, ...], int]]]:
     """Phrases of the groups by their first word."""
     found: dict[str, list[tuple[tuple[str, ...], int]]] = {}
