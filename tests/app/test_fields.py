@@ -55,7 +55,7 @@ def test_what_a_field_holds_is_read_and_said(
     [
         ("liquid_flow", "1,5", "m3/h", "1.5 m³/h"),
         ("feed.mass_flow", "20", "gpm", "20 gal/min"),
-        ("gas_flow", "1000", "Nm3/h", "1000 Nm3/h"),
+        ("gas_flow", "1000", "Nm3/h", "1000 Nm³/h"),
         ("gas_flow", "-1", "m3/h", None),
         ("liquid_flow", "1000", "Nm3/h", None),
         ("liquid_flow", "20", "%", None),

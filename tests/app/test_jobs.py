@@ -204,6 +204,29 @@ def test_what_a_killed_study_has_computed_is_collected(crew: Crew, tmp_path: Pat
     assert json.loads(held.find("mine").future.result(timeout=1)) == outcome  # and can be asked for again
 
 
+def test_a_study_that_runs_is_read_by_another_process(crew: Crew, tmp_path: Path) -> None:
+    """What it has is told as a part, and stays where it is for the study that goes on."""
+    held, parts = Jobs(lambda: crew), tmp_path / "parts"
+    running = Job("study", SPREAD | {"parts": str(parts), "collect": False}, longest=100.0)
+    held._jobs["mine"] = running
+    assert held.so_far("mine") is None  # nothing yet
+    counted: list[int] = []
+    study = Study.of("monte_carlo", SPREAD["table"], app_studies.subject(SPREAD))
+    study.run(folder=parts, progress=lambda p: counted.append(p.done), cancel=lambda: len(counted) > 1)
+    payload = held.so_far("mine")
+    assert payload is not None
+    outcome = json.loads(crew.submit("study", payload).future.result(timeout=100))
+    assert (outcome["complete"], outcome["goes_on"]) == (False, True)
+    assert outcome["counts"]["run"] == counted[1]
+    assert outcome["tables"][0]["rows"]
+    assert outcome["charts"]
+    assert [text for text in outcome["warnings"] if "the study goes on" in text]
+    assert not [text for text in outcome["warnings"] if "stopped" in text]
+    assert list(parts.glob("cases-*"))
+    running.future.set_result(b"{}")
+    assert held.so_far("mine") is None  # its own answer is there
+
+
 def test_progress_in_words() -> None:
     assert progress_text(412, 3000, 0, 41.3) == "412 of 3\u202f000, about 40 s left"
     assert progress_text(412, 3000, 2, 340.0) == "412 of 3\u202f000, 2 failed, about 6 min left"

@@ -15,7 +15,7 @@ import tomli
 
 from granum.app.finding import found
 from granum.app.reading import as_html
-from granum.app.shipped import examples, pages
+from granum.app.shipped import examples, pages, translations
 from granum.core.i18n import LANGUAGES, language
 from granum.core.index import entries
 from granum.core.search import search, usual
@@ -49,6 +49,47 @@ def test_every_kind_is_found(client: Any, asked: str, language: str, sort: str, 
         hit["sort"] == sort and hit["key"] == key for hit in hits[:3]
     ), hits[:3]
     assert all(hit["title"] for hit in hits)
+
+
+@pytest.mark.parametrize(
+    ("code", "asked", "sort", "about"),
+    [
+        ("fr", "exercice cyclone", "exercise", "cyclone"),
+        ("fr", "exercices fluidisation", "exercise", "lit"),
+        ("fr", "chapitre filtration", "page", "Filtration"),
+        ("fr", "diagramme cyclone", "chart", "yclone"),
+        ("fr", "exemple de ligne cristallisation", "line", "ristallisation"),
+        ("en", "dryer exercise", "exercise", "dryer"),
+        ("en", "chapter drying", "page", "Drying"),
+        ("en", "chart settling", "chart", "ettling"),
+    ],
+)
+def test_a_sort_is_asked_for_by_its_name(code: str, asked: str, sort: str, about: str) -> None:
+    with language(code):
+        first = found(asked, 3)
+    assert [hit for hit in first if hit["sort"] == sort and about in hit["title"]], first
+
+
+def test_a_slip_in_a_name_is_forgiven_where_a_description_has_the_word() -> None:
+    assert "porous.permeability_kozeny_carman" in [hit["key"] for hit in found("Karman", 5)]
+
+
+def test_pages_are_shown_in_the_language_of_the_reader() -> None:
+    """By words of both languages, where the page stands in both."""
+    for code, asked, key in (
+        ("fr", "first hour", "fr/premiere-heure"),
+        ("fr", "in a spreadsheet", "fr/dans-un-tableur"),
+        ("en", "première heure", "guides/first-hour"),
+        ("en", "manuel séchoirs un par un", "handbook/dryers"),
+    ):
+        with language(code):
+            shown = [hit["key"] for hit in found(asked, 40) if hit["sort"] == "page"]
+        assert shown[0] == key, shown
+        assert not [name for name in shown if translations().get(name) in shown]
+    pairs = translations()
+    assert all(pairs[pairs[name]] == name for name in pairs)
+    assert {name for name in pages() if name.startswith("fr/")} <= set(pairs)
+    assert {name for name in pages() if name.startswith(("guides/", "handbook/"))} <= set(pairs)
 
 
 FRENCH = """

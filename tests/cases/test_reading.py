@@ -64,6 +64,8 @@ def test_specification_in_a_case() -> None:
         ('["heat", "split"]', '["heat", "split", "x"]', "write it as"),
         ('"mix.cold"', '"nix.cold"', "nix"),
         ('title = "Heater loop"', "", "'title' is missing"),
+        ('"20 degC"', "true", "'feeds.cold.temperature' = true .*a number with its unit"),
+        ('"3600 kg/h"', "false", "'feeds.cold.liquid_flow' = false .*a number with its unit"),
         ("[mixture]", "[mixture", "not valid TOML"),
     ],
 )

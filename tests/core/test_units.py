@@ -398,3 +398,19 @@ def test_gas_at_a_standard_state_is_read_where_it_is_meant() -> None:
 
 def test_an_explosion_constant_without_its_point() -> None:
     assert unit_names.in_base_units("barm/s") == unit_names.in_base_units("bar*m/s")
+
+
+@pytest.mark.parametrize(("unit", "printed"), [("darcy", "D"), ("millidarcy", "mD")])
+def test_permeabilities_are_printed_as_they_are_read(unit: str, printed: str) -> None:
+    assert units.pretty_unit(unit) == printed
+    kind = KINDS["Permeability"]
+    read = [units.read_quantity(f"2 {word}", kind, "permeability") for word in (unit, printed)]
+    assert read[0] == read[1]
+
+
+@pytest.mark.parametrize(
+    ("unit", "printed"),
+    [("dm2", "dm²"), ("kg/(m2*s)", "kg/(m²·s)"), ("cm-1", "cm⁻¹"), ("kg/m^3", "kg/m³"), ("mmH2O", "mmH2O")],
+)
+def test_powers_are_raised_as_they_were_typed(unit: str, printed: str) -> None:
+    assert units.pretty_unit(unit) == printed

@@ -36,9 +36,10 @@ def test_independent_spreads_are_added_as_squares() -> None:
 
 
 def test_a_range_gives_the_least_and_the_greatest_also_between_its_ends() -> None:
-    _result, within = with_intervals(STOKES, particle_diameter="80..90 um", **SPHERE)
     low, high = (9.80665 * 1650 * (d * 1e-6) ** 2 / 18e-3 for d in (80, 90))
-    assert within["terminal_velocity"][:2] == pytest.approx((low, high), rel=1e-9)
+    for text in ("80..90 um", "80–90 um", "80 – 90 um", "80 to 90 um"):
+        _result, within = with_intervals(STOKES, particle_diameter=text, **SPHERE)
+        assert within["terminal_velocity"][:2] == pytest.approx((low, high), rel=1e-9), text
     _result, within = with_intervals("materials.water_density", temperature="1..8 degC")
     assert within["liquid_density"].high == pytest.approx(999.975, abs=2e-3)  # at 4 °C (Kell)
 

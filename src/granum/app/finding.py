@@ -9,7 +9,7 @@ from functools import cache
 
 from granum.app import exercises
 from granum.app.reading import page
-from granum.app.shipped import description_of, examples, pages, title_of
+from granum.app.shipped import description_of, examples, pages, title_of, translations
 from granum.app.wording import summary_words
 from granum.core.datasets import dataset
 from granum.core.i18n import LANGUAGES, _, current_language, language
@@ -24,6 +24,7 @@ from granum.core.search import (
     Finder,
     card_documents,
     document,
+    sort_words,
     usual,
 )
 from granum.core.words import tokens
@@ -31,7 +32,7 @@ from granum.core.words import tokens
 SHOWN = 40  # hits
 USUAL = 3  # of the most usual equipment, before what a search finds for an everyday word
 BEHIND = 0.9  # what is not a card itself
-FOREIGN = 0.75  # a page in the other language
+FOREIGN = 0.75  # a page that is there in the other language only
 LISTS = {  # tables shown by a card, with the column that names a row
     "drying.applications": ("drying", "applications_houdon2017", "product"),
     "drying.foods": ("drying", "foods_beuchat1981", "food"),
@@ -42,13 +43,28 @@ LISTS = {  # tables shown by a card, with the column that names a row
 TAUGHT = 1.05  # of several laws for one thing, one that is learnt
 
 
+def _sort_words(sort: str) -> Iterator[tuple[float, str]]:
+    """Each word by itself: whoever types one of them means no other."""
+    for word in sort_words(sort):
+        yield DOMAIN, word
+
+
+def _of_a_sort(card: Document) -> Document:
+    """A card of tests or charts is found by that word too, which many of their titles lack."""
+    said = dict(card.phrases)
+    for weight, word in _sort_words(entries()[card.key].sort):
+        said.setdefault(tokens(word), weight)
+    return replace(card, phrases=said)
+
+
 def _lines() -> Iterator[Document]:
     for name in examples():
         said: list[tuple[float, str]] = []
         for code in LANGUAGES:
             with language(code):
                 said += [(TITLE, title_of(name)), (TEXT, description_of(name))]
-        yield document("line", name, [*said, (NAME, name.replace("/", " ").removesuffix(".toml"))], BEHIND)
+        said += [(NAME, name.replace("/", " ").removesuffix(".toml")), *_sort_words("line")]
+        yield document("line", name, said, BEHIND)
 
 
 def _exercises() -> Iterator[Document]:
@@ -58,7 +74,7 @@ def _exercises() -> Iterator[Document]:
         said += [(TEXT, text) for text in one["statement"].values()]
         said += [(GIVES, text) for step in one["steps"] if "card" in step for text in _named(step["card"])]
         said += [(DOMAIN, text) for text in _domain(one["domain"])]
-        yield document("exercise", one["id"], said, BEHIND)
+        yield document("exercise", one["id"], [*said, *_sort_words("exercise")], BEHIND)
 
 
 def _named(key: str) -> tuple[str, str, str]:
@@ -78,11 +94,20 @@ def _domain(name: str) -> tuple[str, ...]:
 
 
 def _pages(code: str) -> Iterator[Document]:
+    """Pages in the language of the reader, found by the words of both; those that have no other, too."""
     for name in pages():
-        found = page(name)
+        found, other = page(name), translations().get(name)
+        if found.language != code and other:
+            continue
         worth = BEHIND if found.language == code else BEHIND * FOREIGN
-        said = [(TITLE, found.title), *((NAME, heading) for heading in found.headings)]
-        yield document("page", name, [*said, (TEXT, found.text[:2000])], worth)
+        said = [(TITLE, found.title), *_sort_words("page")]
+        for one in (found, *([page(other)] if other else [])):
+            said += [
+                (TITLE, one.title),
+                *((NAME, heading) for heading in one.headings),
+                (TEXT, one.text[:2000]),
+            ]
+        yield document("page", name, said, worth)
 
 
 def _taught() -> set[str]:
@@ -111,7 +136,7 @@ def _listed(card: Document) -> Document:
 def _finder(code: str) -> Finder:
     taught = _taught()
     cards = (
-        replace(one, worth=one.worth * TAUGHT) if one.key in taught else _listed(one)
+        _of_a_sort(replace(one, worth=one.worth * TAUGHT) if one.key in taught else _listed(one))
         for one in card_documents()
     )
     return Finder([*cards, *_lines(), *_exercises(), *_pages(code)])

@@ -409,3 +409,11 @@ class Jobs:
             )
             job.note = _("collecting what was computed")
         return job
+
+    def so_far(self, name: str) -> dict[str, Any] | None:
+        """What another process reads to tell what a study has computed that still runs; None where that is
+        nothing yet.
+        """
+        job = self.find(name)
+        kept = not job.future.done() and any(Path(job.payload["parts"]).glob("cases-*"))
+        return job.payload | {"collect": True, "goes_on": True} if kept else None

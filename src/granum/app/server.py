@@ -370,11 +370,17 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
         """How far a study is; its outcome when it is done."""
         job = jobs.find(name)
         if not job.future.done():
-            return Answer(job.as_json())
+            return Answer(job.as_json() | {"part": jobs.so_far(name) is not None})
         return Response(
             b'{"state":"done","share":1,"outcome":' + job.future.result() + b"}",
             media_type="application/json",
         )
+
+    @app.get("/api/studies/{name}/part")
+    async def so_far(request: Request, name: str) -> Response:
+        """The outcome of what a study has computed that still runs; null where that is nothing."""
+        payload = jobs.so_far(name)
+        return Answer(None) if payload is None else _json(await crew().run("study", payload, "", request))
 
     @app.delete("/api/studies/{name}")
     async def cancel(name: str) -> Response:

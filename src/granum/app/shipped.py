@@ -12,6 +12,23 @@ import tomli
 import granum
 from granum.core.i18n import _
 
+_GUIDES = {  # the guides by what they are called in French; chapters have one name in both languages
+    "adding-a-formula": "ajouter-une-formule",
+    "adding-equipment": "ajouter-un-equipement",
+    "first-hour": "premiere-heure",
+    "fitting-honestly": "ajuster-honnetement",
+    "in-a-class": "en-classe",
+    "in-a-plant": "dans-une-usine",
+    "in-a-spreadsheet": "dans-un-tableur",
+    "in-the-notebook": "dans-un-carnet",
+    "lab-to-plant": "du-laboratoire-a-l-usine",
+    "laws-of-your-own": "lois-personnelles",
+    "line-with-recycle": "ligne-a-recyclage",
+    "reading-the-audit": "lire-l-audit",
+    "studies": "etudes",
+    "uncertainty-to-decision": "de-l-incertitude-a-la-decision",
+}
+
 
 def _folder(name: str) -> Path:
     root = Path(str(files("granum") / name))
@@ -92,3 +109,12 @@ def pages() -> dict[str, Path]:
     ]
     names = {place.relative_to(root).with_suffix("").as_posix(): place for place in sorted(found)}
     return {name: place for name, place in names.items() if not name.endswith("index")}
+
+
+@cache
+def translations() -> dict[str, str]:
+    """Pages that stand in both languages, each with its name in the other."""
+    guides = {f"guides/{own}": f"fr/{other}" for own, other in _GUIDES.items()} | {"errata": "fr/errata"}
+    chapters = {name: f"fr/manuel/{name[9:]}" for name in pages() if name.startswith("handbook/")}
+    both = {own: other for own, other in (guides | chapters).items() if {own, other} <= set(pages())}
+    return both | {other: own for own, other in both.items()}

@@ -188,7 +188,7 @@ def _not_too_many(table: Mapping[str, Any]) -> None:
 
 def _outcome(declared: Any, payload: Mapping[str, Any], tell: Tell) -> dict[str, Any]:
     """Run it; finished chunks lie in the folder ``parts``, from which ``collect`` reads them without
-    computing more.
+    computing more, and leaves them there where the study ``goes_on`` meanwhile.
     """
     from granum.studies.report import warnings_of
     from granum.studies.store import forget
@@ -197,7 +197,8 @@ def _outcome(declared: Any, payload: Mapping[str, Any], tell: Tell) -> dict[str,
     outcome = declared.run(
         progress=_telling(tell), cancel=lambda: bool(payload.get("collect")) or tell.stopped(), folder=parts
     )
-    if parts is not None:
+    goes_on = bool(payload.get("goes_on"))
+    if parts is not None and not goes_on:
         forget(parts)
     if not outcome.complete and not outcome.counts()["run"]:
         raise Cancelled
@@ -208,7 +209,8 @@ def _outcome(declared: Any, payload: Mapping[str, Any], tell: Tell) -> dict[str,
             for name, figure in outcome.charts().items()
         ],
         "tables": _tables(outcome, payload.get("inputs") or {}),
-        "warnings": warnings_of(outcome),
+        "warnings": warnings_of(outcome, goes_on=goes_on),
+        "goes_on": goes_on and not outcome.complete,
     }
 
 

@@ -18,7 +18,7 @@ from granum.streams.names import pretty
 _QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
 _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _SHARE = re.compile(r" \((?:'|«\s)(?:liquid|solid|gas)\.[^'»]+?(?:'|\s»)\)")  # label ('liquid.water')
-_WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
+_WITH_LABEL = re.compile(rf"{_QUOTED} \((.+?)\)(?=[.,;:]|\s|$)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
 # what is quoted after the word for a stream or a unit, of which the ends do in both languages
 _OF_LINE = re.compile(r"((?:[Ss]tream|[Uu]nit|ourant|areil|unité) (?:'|«\s))([\w.]+)(?='|\s»)")
@@ -126,9 +126,11 @@ def _of_classes(message: str) -> str:
 
 
 def _labelled(found: re.Match[str]) -> str:
-    if not quantity_in(found[1]) or Parameter(found[1]).label != found[2].strip():
+    label = Parameter(found[1]).label if quantity_in(found[1]) else ""
+    unit = found[2].removeprefix(label).removeprefix(", ")
+    if not label or found[2] not in (label, f"{label}, {unit}"):
         return found[0]
-    return f"{found[2]} ({pretty_unit(found[3])})" if found[3] else found[2]
+    return f"{label} ({pretty_unit(unit)})" if unit else label
 
 
 def _title(key: str) -> str:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, StrictFloat, StrictInt
 
-Quantity = str | float | int
+Quantity = str | StrictFloat | StrictInt  # yes and no are no numbers
 
 
 class _Strict(BaseModel):

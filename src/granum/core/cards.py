@@ -93,9 +93,10 @@ class Card:
     @property
     def inputs(self) -> dict[str, Parameter]:
         """By name all that must be known for a value: of a law what it is called with and what it is made
-        of.
+        of. What is both is called with: the law alone has nobody else to ask.
         """
-        return {p.name: p for p in (*self.arguments, *self.parameters)}
+        called = {p.name: p for p in self.arguments}
+        return called | {p.name: p for p in self.parameters if p.name not in called}
 
     def parameter(self, name: str) -> Parameter:
         """One input or output by name."""

@@ -80,8 +80,13 @@ def wrong_sort(error: Mapping[str, Any]) -> str:
     if amount:
         needed = _("a number with its unit, in quotation marks")
     return _("'{place}' = {value} is not possible: it must be {allowed}.").format(
-        place=".".join(place), value=str(error["input"])[:LONGEST_SHOWN], allowed=needed
+        place=".".join(place), value=_as_written(error["input"])[:LONGEST_SHOWN], allowed=needed
     )
+
+
+def _as_written(value: Any) -> str:
+    """A value as it stands in the file, where Python writes it otherwise."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 _SAID = re.compile(

@@ -74,6 +74,17 @@ def _synonyms() -> tuple[list[list[tuple[str, ...]]], dict[str, list[str]]]:
 
 
 @cache
+def _sorts() -> dict[str, list[str]]:
+    text = (files("granum") / "core" / "synonyms.toml").read_text(encoding="utf-8")
+    return tomli.loads(text)["sorts"]
+
+
+def sort_words(sort: str) -> Sequence[str]:
+    """What people call a sort of things, in both languages, before what the thing itself is about."""
+    return _sorts().get(sort, ())
+
+
+@cache
 def _groups_by_word() -> dict[str, list[tuple[tuple[str, ...], int]]]:
     """Phrases of the groups by their first word."""
     found: dict[str, list[tuple[tuple[str, ...], int]]] = {}
@@ -125,6 +136,8 @@ class Finder:
                         self._places.setdefault(word, []).append(numbers[phrase])
                 self._said[numbers[phrase]][1].append((number, weight))
         self._sorted = sorted(self._places)
+        strong = (phrase for phrase, owners in self._said if max(w for _, w in owners) >= AUTHOR)
+        self._named = {word for phrase in strong for word in phrase}  # in names, titles and by authors
         self._roots: dict[str, list[str]] = {}
         for word in self._sorted:
             self._roots.setdefault(root(word), []).append(word)
@@ -137,7 +150,10 @@ class Finder:
             found[other] = max(BEGINS * (0.6 + 0.4 * len(word) / len(other)), found.get(other, 0.0))
         if word in self._places:
             found[word] = EXACT
-        return found or self._slipped(word)
+        if self._named.isdisjoint(found):  # what stands in descriptions alone may be a slip for a name too
+            slipped = self._slipped(word).items()
+            found |= {other: sure for other, sure in slipped if not found or other in self._named}
+        return found
 
     def _slipped(self, word: str) -> dict[str, float]:
         """Words from which a slip or two of the finger make the typed one."""

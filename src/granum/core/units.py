@@ -328,6 +328,8 @@ _PRETTY = {
     "inch": "in",
     "gallon": "gal",
     "short_ton": "short ton",
+    "darcy": "D",
+    "millidarcy": "mD",
 }
 _FRENCH = {"day": "j", "year": "an", "rpm": "tr/min", "revolution": "tr"}
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -339,7 +341,8 @@ def pretty_unit(unit: str) -> str:
     """
     printed = _PRETTY | _FRENCH if current_language() == "fr" else _PRETTY
     text = re.sub(r"[A-Za-z_]+", lambda m: printed.get(m.group(), m.group()), unit)
-    text = re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_SUPERSCRIPT), text)
+    # m2 is typed for m^2; in mmH2O the number is no power
+    text = re.sub(r"(?:\^|(?<=[^\W\d_]))(-?\d+)(?![\w.])", lambda m: m[1].translate(_SUPERSCRIPT), text)
     return text.replace("*", "·")
 
 

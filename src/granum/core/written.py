@@ -52,15 +52,15 @@ def read_number(text: str) -> tuple[float, str] | None:
     return float(_plain(found[1])), found[2]
 
 
-_INTERVAL = re.compile(r"(.*?\d.*?)\s*(±|\+/?-|\.\.+|…|(?<=\s)(?:à|to)(?=\s))\s*(.*\d.*)", re.DOTALL)
+_INTERVAL = re.compile(r"(.*?\d.*?)\s*(±|\+/?-|\.\.+|…|–|(?<=\s)(?:à|to)(?=\s))\s*(.*\d.*)", re.DOTALL)
 
 
 def interval(text: str) -> tuple[str, str, str] | None:
-    """Both numbers of ``85 ± 5 um``, ``80..90 um`` or ``80 to 90 um``, each with its unit where the other has
-    it, and the mark ``±`` or ``..``; None where a text is no interval. A spread in percent says nothing about
-    the unit.
+    """Both numbers of ``85 ± 5 um``, ``80..90 um``, ``80–90 um`` or ``80 to 90 um``, each with its
+    unit where the other has it, and the mark ``±`` or ``..``; None where a text is no
+    interval. A spread in percent says nothing about the unit.
 
-    >>> interval("80 à 90 um"), interval("0.8 bar ± 5 %"), interval("85 um")
+    >>> interval("80 à 90 um"), interval("0.8 bar ± 5 %"), interval("1e-3 m")
     (('80 um', '90 um', '..'), ('0.8 bar', '5 %', '±'), None)
     """
     found = _INTERVAL.fullmatch(text.strip()) if len(text) <= LONGEST else None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,6 +9,7 @@ import granum
 from granum.core import charts
 from granum.core.i18n import _
 from granum.core.results import Result
+from granum.reports.dates import date_text
 from granum.reports.html import note_step
 from granum.reports.mathml import equation_wrapped, mathml
 from granum.reports.numbers import numbered
@@ -52,7 +52,7 @@ def calculation_sheet(
     ]
     block = [
         (_("Identifier"), card.key),
-        (_("Date"), datetime.date.today().isoformat()),
+        (_("Date"), date_text()),
         (_("Program"), f"Granum {granum.__version__}"),
     ]
     return page(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 import hashlib
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
@@ -19,6 +18,7 @@ from granum.core.results import Result
 from granum.core.sources import cite
 from granum.core.units import format_number, from_si
 from granum.estimation.results import by_fit
+from granum.reports.dates import date_text
 from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import (
     check_row,
@@ -223,7 +223,7 @@ def line_report(run: Any, advice: Mapping[str, str] | None = None) -> str:
     block = [
         (_("Project"), told.get("project", "")),
         (_("Author"), told.get("author", "")),
-        (_("Date"), told.get("date") or datetime.date.today().isoformat()),
+        (_("Date"), told.get("date") or date_text()),
         (_("Program"), f"Granum {granum.__version__}"),
         (_("Inputs"), "sha256 " + hashlib.sha256(run.line.text.encode()).hexdigest()[:12]),
     ]

@@ -70,10 +70,11 @@ class Cases:
 
     def reason(self, case: int) -> str:
         """Why a case failed; empty when it did not."""
-        code = int(self.codes[case])
-        return self.texts.get(case) or (
-            "" if code <= FINE else self.subject.reason(code, self.inputs, self.outputs)
-        )
+        return self.texts.get(case) or self.reason_of(int(self.codes[case]))
+
+    def reason_of(self, code: int) -> str:
+        """What a code says; nothing of a case that has a result."""
+        return "" if code <= FINE else self.subject.reason(code, self.inputs, self.outputs)
 
     def reasons(self) -> dict[str, int]:
         """How many cases failed for which reason."""

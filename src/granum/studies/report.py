@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -15,10 +14,11 @@ from rich.text import Text
 import granum
 from granum.core.i18n import _
 from granum.core.units import format_number, from_si, pretty_unit
+from granum.reports.dates import date_text
 from granum.reports.templating import page
 from granum.reports.terminal import CAUTION, OK, OUT, _console, _table
 from granum.studies.outcome import Outcome, kind_in_words
-from granum.studies.subjects import Variable
+from granum.studies.subjects import NOT_RUN, Variable
 
 ROWS = 40
 LEADING = 4
@@ -271,9 +271,9 @@ def tables_of(outcome: Outcome) -> list[Rows]:
     return [_columns(outcome, picked, getattr(outcome, "names", ()))]
 
 
-def warnings_of(outcome: Outcome) -> list[str]:
-    """What a reader must know: failed cases with their reasons, a study that was stopped, an infeasible
-    end.
+def warnings_of(outcome: Outcome, *, goes_on: bool = False) -> list[str]:
+    """What a reader must know: failed cases with their reasons, a study that was stopped or still
+    ``goes_on``, an infeasible end.
     """
     counts = outcome.counts()
     rows = list(outcome.cases.notes)
@@ -283,8 +283,11 @@ def warnings_of(outcome: Outcome) -> list[str]:
                 "{failed} of {run} cases failed; they are kept with their reason and left out of the figures."
             ).format(**counts)
         )
+    left = outcome.cases.reason_of(NOT_RUN)  # told below, with how many there are
     rows += [
-        f"{count} × {reason}" for reason, count in sorted(counts["reasons"].items(), key=lambda row: -row[1])
+        f"{count} × {reason}"
+        for reason, count in sorted(counts["reasons"].items(), key=lambda row: -row[1])
+        if reason != left
     ]
     if counts["patient"]:
         rows.append(
@@ -297,7 +300,12 @@ def warnings_of(outcome: Outcome) -> list[str]:
             _("In {extrapolated} of {run} cases some correlation is used outside its range.").format(**counts)
         )
     if not outcome.complete:
-        rows.append(_("The study was stopped: {run} of {cases} cases were run.").format(**counts))
+        told = (
+            _("So far {run} of {cases} cases were run; the study goes on.")
+            if goes_on
+            else _("The study was stopped: {run} of {cases} cases were run.")
+        )
+        rows.append(told.format(**counts))
     found = outcome.findings()
     if outcome.kind == "optimize" and not found["feasible"]:
         rows.append(_("No start keeps every limit: this is the least violation found, not a solution."))
@@ -405,7 +413,7 @@ def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -
         )
     block = [
         (_("Model"), outcomes[0].cases.subject.title),
-        (_("Date"), datetime.date.today().isoformat()),
+        (_("Date"), date_text()),
         (_("Program"), f"Granum {granum.__version__}"),
     ]
     return page(

@@ -84,7 +84,7 @@ function App() {
   useEffect(() => {
     document.title = `${t(page[1])} · Granum`;
     document.querySelector('nav a[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'center' });
-  }, [page, settings.language]);
+  }, [page, settings.language, guides]); // a page that comes into the row later moves the others
   return html`<a class="skip" href="#main" onClick=${(e) => {
     e.preventDefault();
     const inside = 'input, select, textarea';

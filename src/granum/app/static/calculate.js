@@ -18,7 +18,7 @@ import {
 import { Chapter } from './chapter.js';
 import { Plot, decoded } from './plot.js';
 import { Fields, changed, fields, missingOf, ordinary } from './form.js';
-import { Finder, useCards } from './cards.js';
+import { Finder, NoCard, useCards } from './cards.js';
 import { Result } from './result.js';
 import { Quantity, joined } from './quantity.js';
 import { States, statesOf } from './states.js';
@@ -45,7 +45,7 @@ export function Calculate({
   return html`<main class=${page === 'charts' ? 'three chart' : 'three'} id="main"><${Finder} page=${page} current=${key} cards=${cards} />
     ${
       error
-        ? html`<section><h1>${t('Calculate')}</h1><p class="message out">${error.message}</p></section><section />`
+        ? html`<${NoCard} heading=${t({ charts: 'Charts', select: 'Select' }[page] ?? 'Calculate')} error=${error} />`
         : ready
           ? html`<${Work} key=${`${key} ${settings.language} ${settings.units} ${state.visit}`} page=${page} card=${card} given=${state.values} />`
           : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`

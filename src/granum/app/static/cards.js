@@ -27,6 +27,13 @@ export function useCards(keep = everything) {
   return data ? data.cards.filter(keep) : null;
 }
 
+/** What stands where a link leads to no card: why, and the way to the one that may be meant. */
+export function NoCard({ heading, error }) {
+  const meant = useCards()?.find((c) => c.card === error.details?.did_you_mean);
+  return html`<section aria-label=${t('Enter')}><h1>${heading}</h1><p class="message out" role="alert">${error.message}</p>
+    ${meant && html`<p>${t('Open')} <a href=${link('find', meant.card)}>${meant.title}</a></p>`}</section><section />`;
+}
+
 /** Entries of a domain: the equipment as a group, then single cards and families of laws in the order of their titles. */
 export function entriesOf(cards) {
   const families = new Map();

@@ -148,8 +148,12 @@ export const html = (parts, ...values) =>
 export function t(text, values = {}) {
   const found =
     settings.language === 'fr' ? (french[text] ? spaced(french[text]) : text) : english[text] || text;
-  return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
+  return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? counted(values[name]) : whole));
 }
+
+/** A large count with its thousands apart, as the server writes it. */
+const counted = (value) =>
+  Number.isInteger(value) && value >= 10_000 ? String(value).replace(/\B(?=(\d{3})+$)/g, '\u202f') : value;
 
 // ---- requests -------------------------------------------------------------------------------------
 const ATTEMPTS = 3;
@@ -253,16 +257,28 @@ export function useAnswer(make, dependencies, wait = 60) {
   return { data: state.data, error: state.error, pending, cancel, job: () => running.current?.signal.job };
 }
 
+/** Puts a text on the clipboard; whether it is there. Browsers give theirs to this computer and to https alone. */
+export async function toClipboard(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    const before = document.activeElement;
+    const field = Object.assign(document.createElement('textarea'), { value: text, className: 'unseen' });
+    document.body.append(field);
+    field.select();
+    const done = document.execCommand('copy');
+    field.remove();
+    before?.focus();
+    return done;
+  }
+}
+
 /** What is said after the address of the page has been copied, and what copies it. */
 export function useCopying() {
   const [copied, setCopied] = useState('');
   const copy = async () => {
-    try {
-      await navigator.clipboard.writeText(location.href);
-      setCopied(t('Copied.'));
-    } catch {
-      setCopied(location.href);
-    }
+    setCopied((await toClipboard(location.href)) ? t('Copied.') : location.href);
     setTimeout(() => setCopied(''), 4000);
   };
   return [copied, copy];

@@ -75,6 +75,13 @@ export function keptSteps(place, text) {
   }
 }
 
+/** A change made from another page: the text before it is one step back, as after a change under Lines. */
+export function keepChange(place, before, text) {
+  const past = keptSteps(place, before)?.past ?? [];
+  keepDraft(place, text);
+  keepSteps(place, text, [...past, before], []);
+}
+
 const through = async (bytes, stream) =>
   new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 

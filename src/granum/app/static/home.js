@@ -1,5 +1,5 @@
 // The start: tasks in words, what was open lately, and the domains with all they hold.
-import { html, t, link } from './core.js';
+import { html, t, link, settings } from './core.js';
 import { entriesOf, order, useCards } from './cards.js';
 import { hrefOf, placeOf } from './seek.js';
 import { recent } from './recent.js';
@@ -82,7 +82,9 @@ export function Home({ state }) {
 
 /** All that a domain holds, by what it is. */
 function Domain({ domain, cards }) {
-  const own = (cards || []).filter((c) => c.domain === domain);
+  const own = (cards || [])
+    .filter((c) => c.domain === domain)
+    .toSorted((a, b) => a.title.localeCompare(b.title, settings.language));
   return html`<main class="page home" id="main" aria-busy=${String(!cards)}><p class="small"><a href=${link('home')}>${t('Start')}</a></p><h1>${t(domain)}</h1>
     ${cards && !own.length && html`<p class="message dim">${t('Nothing found.')}</p>`}
     ${SORTS.map(([sort, label]) => {

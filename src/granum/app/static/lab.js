@@ -19,7 +19,7 @@ import { Chapter } from './chapter.js';
 import { Plot, decoded } from './plot.js';
 import { UseInLine } from './lab_line.js';
 import { Field, changed, fields, missingOf } from './form.js';
-import { Finder, useCards } from './cards.js';
+import { Finder, NoCard, useCards } from './cards.js';
 import { inLanguage, unitLabel } from './quantity.js';
 
 export function Lab({ state }) {
@@ -27,13 +27,13 @@ export function Lab({ state }) {
   const key =
     state.key ||
     (cards?.some((c) => c.card === 'filtration.leaf_test') ? 'filtration.leaf_test' : cards?.[0]?.card);
-  const { data: card } = useAnswer(
+  const { data: card, error } = useAnswer(
     (signal) => (key ? ask(`/api/cards/${key}`, undefined, { signal }) : Promise.resolve(null)),
     [key, settings.language, settings.units],
     0,
   );
   return html`<main class="three" id="main"><${Finder} page="lab" current=${key} cards=${cards} />
-    ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
+    ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : error?.details ? html`<${NoCard} heading=${t('Lab data')} error=${error} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
 }
 
 function Test({ card, given }) {
@@ -136,7 +136,7 @@ function Test({ card, given }) {
         <div role="status">${told}</div>
         ${workbook && html`<label class="end" for="sheet"><span>${t('One of {count} sheets', { count: workbook.sheets.length })}</span><select id="sheet" value=${workbook.sheet} onChange=${(e) => take([workbook.file], e.target.value)}>${workbook.sheets.map((name) => html`<option value=${name} selected=${name === workbook.sheet}>${name}</option>`)}</select></label>`}</div>
       ${card.trial && html`<div class="row"><button class="button" onClick=${tryIt}>${t('Try with example data')}</button>${trial && html` <span class="caution" role="status" data-trial>▲ ${t('Example: data and conditions of {name}', { name: trial.name })}</span>`}</div>`}
-      <h2><label for="table">${t('or paste the table')}</label></h2>
+      <h2 class="screen"><label for="table">${t('or paste the table')}</label></h2>
       <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => own(e.target.value)}></textarea>
       ${!tableKept && html`<p class="message caution" role="status">▲ ${t('This table is too large to be kept here: it is gone after a reload.')}</p>`}
       <${Columns} columns=${columns} table=${table} change=${setTable} />
@@ -234,7 +234,7 @@ function Columns({ columns, table, change }) {
     lines.splice(head.at, head.bare ? 0 : 1, cells.join(head.mark));
     change(lines.join('\n'));
   };
-  return html`<div class="mapping"><h2>${t('Which column is what')}</h2>${columns.map((p) => {
+  return html`<div class="mapping screen"><h2>${t('Which column is what')}</h2>${columns.map((p) => {
     const place = head.bare ? -1 : head.cells.findIndex((cell) => means(cell, p));
     const unit = place < 0 ? '' : heading(head.cells[place]).unit;
     const usual = p.units?.[0]?.unit === 'dimensionless' ? '' : p.units?.[0]?.unit || '';

@@ -1,6 +1,6 @@
 // What a lab test gave, taken into a line: the data and conditions go into its case, so that the uncertainty stays known.
 import { html, t, ask, colon, link, lastPlace, useState, useEffect } from './core.js';
-import { caseAt, draftedPlaces, keepDraft, packed } from './drafts.js';
+import { caseAt, draftedPlaces, keepChange, packed } from './drafts.js';
 import { pretty } from './line_forms.js';
 
 /** The line that is open under Lines: its place and what its link carries. */
@@ -60,7 +60,7 @@ export function UseInLine({ data, values, table }) {
         estimates,
       };
       const found = await ask('/api/case/build', { case: text, operation: 'use_fit', arguments: given });
-      keepDraft(place, found.case);
+      keepChange(place, text, found.case);
       setTold({ place, link: link('lines', place, { case: await packed(found.case) }) });
     } catch (problem) {
       setTold({ problem: problem.message });

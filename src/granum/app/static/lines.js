@@ -13,6 +13,7 @@ import {
   download,
   stoppable,
   settings,
+  useCopying,
   Working,
 } from './core.js';
 import { order } from './cards.js';
@@ -80,6 +81,7 @@ export function Lines({ state }) {
   const [removed, setRemoved] = useState(null);
   const [forgotten, setForgotten] = useState(null); // of the lines kept in this browser
   const [sized, setSized] = useState({ name: '', text: '' }); // for what a piece was sized
+  const [copied, copy] = useCopying();
   const stop = useRef(null);
   const latest = useRef('');
   const saved = useRef('');
@@ -167,12 +169,20 @@ export function Lines({ state }) {
     if (!wanted) return;
     try {
       const found = await caseAt(wanted, link);
-      if (wanted !== where.current) {
+      // a link may bring a line of the name of another one that is kept here: what it takes the place of is one step back
+      const before = wanted === where.current ? latest.current : wanted.startsWith('computer:') ? drafted(wanted) : null;
+      const replaced = before && before !== found.text ? [before] : [];
+      if (wanted === where.current) {
+        if (replaced.length) {
+          setPast((steps) => [...steps.slice(1 - STEPS), ...replaced]);
+          setFuture([]);
+        }
+      } else {
         drop();
         setKept(recall('compared ' + wanted, []));
         setOutcome(null);
         const steps = keptSteps(wanted, found.text);
-        setPast(steps?.past ?? (found.changed ? [found.saved] : []));
+        setPast(steps?.past ?? (found.changed ? [found.saved] : replaced));
         setFuture(steps?.future ?? []);
         choose(NOTHING);
         setPalette(null);
@@ -183,7 +193,13 @@ export function Lines({ state }) {
       setError(null);
       setTaken(false);
       setMaking(false);
-      setTold(found.changed ? t('With the changes of last time; Undo takes them back.') : '');
+      setTold(
+        found.changed
+          ? t('With the changes of last time; Undo takes them back.')
+          : replaced.length
+            ? t('Another line was here under this name; Undo brings it back.')
+            : '',
+      );
       const forms = await shown(found.text);
       follow(found.text);
       if (!forms?.missing.length) solve(found.text);
@@ -387,6 +403,13 @@ export function Lines({ state }) {
     await complete();
     location.hash = link('studies', where.current, { case: await follow(latest.current) });
   };
+  /** The link of the line as it stands, unless it is too long for one. */
+  const share = async () => {
+    await complete();
+    const own = latest.current !== saved.current || where.current.startsWith('computer:');
+    if ((await follow(latest.current)) || !own) copy();
+    else setTold(t('This line is too long for a link: download its file and send that.'));
+  };
   const wider = (count) => {
     if (count === across.current) return;
     across.current = count;
@@ -401,6 +424,7 @@ export function Lines({ state }) {
     (form?.ends.origins || []).map((end) => [end.stream, end.stream === end.value ? end.label : undefined]),
   );
   const tools = html`<button class="button" disabled=${busy || !outcome || missing.length > 0} onClick=${report}>${t('Report')}</button>
+    <button class="button" onClick=${share}>${t('Copy link')}</button>
     <button class="button" disabled=${old || !outcome || kept.length >= MOST_KEPT} onClick=${() => compare([...kept, { units: outcome.units, form }])}>${t('Keep to compare')}</button>
     <a class="button" onClick=${study} href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`;
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
@@ -439,7 +463,7 @@ export function Lines({ state }) {
     <details open=${writing} onToggle=${(e) => setWriting(e.target.open)}><summary>${t('Case file')}</summary><${Editor} text=${text} write=${setText} done=${change} /></details></details></section>
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
     ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
-    ${text && html`<div class="row spread"><h2 class="first title">${form?.title || outcome?.title || ''}</h2><div class="row">${tools}</div></div>`}
+    ${text && html`<div class="row spread"><h2 class="first title">${form?.title || outcome?.title || ''}</h2><div class="row">${tools}</div></div><span class="small dim" role="status" data-copied>${copied}</span>`}
     ${reading && !form && html`<p class="dim" aria-busy="true">${t('Reading the line…')}</p>`}
     ${
       form &&

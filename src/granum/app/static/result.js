@@ -1,5 +1,5 @@
 // The right column: what came out and whether to believe it.
-import { html, t, link, settings, useState, useKept } from './core.js';
+import { html, t, link, settings, useState, useKept, toClipboard } from './core.js';
 import { unitLabel } from './quantity.js';
 import { Sensitivity } from './sensitivity.js';
 import { Series } from './series.js';
@@ -58,7 +58,7 @@ function Value({ row, unit, setUnit }) {
   const text = `${chosen.text} ${chosen.label}`.trim();
   const full = `${chosen.full} ${chosen.label}`.trim();
   const copy = async () => {
-    await navigator.clipboard?.writeText(full).catch(() => {});
+    if (!(await toClipboard(full))) return;
     setCopied(true);
     setTimeout(() => setCopied(false), 1500);
   };

@@ -46,6 +46,15 @@ function grouped(hits) {
   return [...groups].map(([name, list]) => [name, list.slice(0, IN_A_GROUP)]);
 }
 
+/** The server has its words ready once somebody is about to type: they take seconds the first time. */
+const readied = new Set();
+function ready() {
+  const { language } = settings;
+  if (readied.has(language)) return;
+  readied.add(language);
+  ask('/api/search?limit=1&q=').catch(() => readied.delete(language));
+}
+
 export function Seek() {
   const [word, setWord] = useState('');
   const [open, setOpen] = useState(false);
@@ -123,7 +132,10 @@ export function Seek() {
   }}>
     <button class="opener" aria-label=${t('Search everything')} aria-expanded=${String(open)} onClick=${show}><${Glass} /></button>
     <div class="sheet"><div class="line"><${Glass} /><input ref=${input} id="seek" type="text" enterkeyhint="search" autocomplete="off" spellcheck=${false} aria-label=${t('Search everything')} aria-controls="hits" aria-autocomplete="list" aria-activedescendant=${listed && flat.length ? `hit-${at}` : null}
-        placeholder=${t('Search everything')} value=${word} onFocus=${() => setOpen(true)} onKeyDown=${press} onInput=${(
+        placeholder=${t('Search everything')} value=${word} onFocus=${() => {
+          setOpen(true);
+          ready();
+        }} onKeyDown=${press} onInput=${(
           e,
         ) => {
           setWord(e.target.value);
@@ -148,7 +160,7 @@ export function Seek() {
         }}><span class="title">${hit.title}</span> <span class="where">${hit.domain ? `${t(hit.domain)} · ` : ''}${t(where.name)}</span><span class="summary">${hit.summary}</span></a>`;
       })}</div>`,
     )}</div>
-    <div class="none" role="status">${listed && !found.pending ? (flat.length ? html`<span class="unseen">${t('{count} found', { count: flat.length })}</span>` : t('Nothing found for “{word}”. Try another word, a symbol or an author.', { word: asked })) : ''}</div></div></div>`;
+    <div class="none" role="status">${listed && found.pending && !flat.length ? html`<span class="late">${t('Searching…')}</span>` : listed && !found.pending ? (flat.length ? html`<span class="unseen">${t('{count} found', { count: flat.length })}</span>` : t('Nothing found for “{word}”. Try another word, a symbol or an author.', { word: asked })) : ''}</div></div></div>`;
 }
 
 const Glass = () =>

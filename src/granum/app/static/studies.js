@@ -76,7 +76,7 @@ function Study({ state }) {
   return html`<main class="studies" id="main">${
     ready
       ? html`<${Form} key=${place + settings.language + settings.units + state.visit} place=${place} head=${head} subject=${found.subject} choices=${found.choices} />`
-      : html`<section aria-label=${t('Enter')}>${head}${error && !pending ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim" aria-busy="true">${t('Loading…')}</p><${Working} busy=${pending} cancel=${cancel} job=${job} />`}</section><section aria-label=${t('Believe')} />`
+      : html`<section aria-label=${t('Enter')}>${head}${error && !pending ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim" aria-busy="true">${t('Reading what may vary and what may be watched…')}</p><${Working} busy=${pending} cancel=${cancel} job=${job} />`}</section><section aria-label=${t('Believe')} />`
   }</main>`;
 }
 
@@ -112,7 +112,7 @@ function Cards({ go }) {
     const found = cards.find((c) => named(c) === text);
     if (found) go('card:' + found.card);
   };
-  return html`<label>${t('or of a card')} <input type="search" list="study-cards" placeholder=${t('Type its title')} data-cards onFocus=${load} onInput=${(e) => choose(e.target.value)} /></label><datalist id="study-cards">${cards.map((c) => html`<option value=${named(c)} />`)}</datalist>`;
+  return html`<label class="screen">${t('or of a card')} <input type="search" list="study-cards" placeholder=${t('Type its title')} data-cards onFocus=${load} onInput=${(e) => choose(e.target.value)} /></label><datalist id="study-cards">${cards.map((c) => html`<option value=${named(c)} />`)}</datalist>`;
 }
 
 function Form({ place, head, subject, choices }) {
@@ -175,17 +175,29 @@ function Form({ place, head, subject, choices }) {
     ${kind === 'sobol' && designed(setup) && html`<p class="small dim" data-design>${explained(designed(setup))}</p>`}`
     }
     <div class="row"><button class="button main" disabled=${job.running || starting || lacking} onClick=${run}>${t('Run the study')}</button></div>
-    <p class="small dim">${t('A study runs on when you leave this page or close it; after an hour it is stopped, and what it has computed is kept.')}</p>
+    <p class="small dim screen">${t('A study runs on when you leave this page or close it; after an hour it is stopped, and what it has computed is kept.')}</p>
     <${Past} past=${past} open=${open} /></section>
     <section aria-label=${t('Believe')}><${Working} busy=${job.running} cancel=${job.cancel} share=${job.share} text=${job.note || t('Working…')} />
+      ${job.running && job.partly && html`<div class="row"><${Look} look=${job.look} again=${Boolean(job.part)} /></div>`}
       ${job.error && html`<p class="message out" role="alert">${job.error}</p>`}
       ${!job.outcome && !job.running && !job.error && html`<p class="dim">${t('Choose what varies and what is watched, then run the study. Charts and tables appear here.')}</p>`}
       ${job.unkept && html`<p class="message caution">▲ ${t('This browser could not keep the result: download the cases before you leave.')}</p>`}
       ${
-        job.outcome &&
+        job.running && job.part
+          ? html`<div data-so-far><${Outcome} data=${job.part} question=${job.asking} /></div>`
+          : job.outcome &&
         html`${old && html`<p class="message caution" data-old>▲ ${t('What follows answers an earlier question. Run the study to answer the one on the left.')}</p>`}
         <div class=${old ? 'stale' : ''}><${Outcome} data=${job.outcome} question=${job.question} /></div>`
       }</section>`;
+}
+
+/** What there is of a study that runs, for whoever wants to know before its end. */
+function Look({ look, again }) {
+  const [busy, setBusy] = useState(false);
+  return html`<button class="button" disabled=${busy} onClick=${() => {
+    setBusy(true);
+    look().finally(() => setBusy(false));
+  }}>${busy ? t('Reading…') : again ? t('Show what there is by now') : t('Show what there is so far')}</button>`;
 }
 
 /** The figures that are watched, or those that are to be smallest or largest. */

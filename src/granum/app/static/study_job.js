@@ -16,6 +16,9 @@ const IDLE = {
   asked: '',
   question: null,
   unkept: false,
+  partly: false, // something is computed that can be looked at
+  part: null,
+  asking: null,
 };
 
 /** The state of the study of each place; the page may be left meanwhile. */
@@ -36,7 +39,7 @@ function keepJob(place, job) {
 const stop = (id) => ask(`/api/studies/${id}`, undefined, { method: 'DELETE' }).catch(() => {});
 
 async function follow(place, job) {
-  update(place, { id: job.id, running: true, share: 0, note: '', error: '' });
+  update(place, { id: job.id, running: true, share: 0, note: '', error: '', partly: false, part: null, asking: job.question });
   for (let failed = 0; stateOf(place).id === job.id;) {
     try {
       const found = await ask(`/api/studies/${job.id}`);
@@ -54,6 +57,7 @@ async function follow(place, job) {
           asked,
           question,
           error: '',
+          part: null,
           done: true,
         });
         const kept = await keepStudy({ id, place, asked, question, setup, outcome, when: Date.now() });
@@ -61,7 +65,7 @@ async function follow(place, job) {
         return;
       }
       failed = 0;
-      update(place, { share: found.share, note: found.note });
+      update(place, { share: found.share, note: found.note, partly: found.part });
     } catch (problem) {
       if (stateOf(place).id !== job.id) return;
       if (problem.details && problem.details.type !== 'Busy') {
@@ -97,6 +101,13 @@ async function start(place, study, question, setup) {
   }
 }
 
+/** What the study has found by now; it goes on. */
+async function look(place) {
+  const { id } = stateOf(place);
+  const part = await ask(`/api/studies/${id}/part`).catch(() => null); // it may have ended meanwhile
+  if (part && stateOf(place).id === id) update(place, { part });
+}
+
 function cancel(place) {
   const { id } = stateOf(place);
   if (typeof id === 'string')
@@ -122,6 +133,7 @@ export function useJob(place) {
     ...stateOf(place),
     start: (study, question, setup) => start(place, study, question, setup),
     cancel: () => cancel(place),
+    look: () => look(place),
   };
 }
 
@@ -162,7 +174,7 @@ export function Outcome({ data, question }) {
     download('cases.csv', lines.join('\n') + '\n', 'text/csv');
   };
   return html`<div class="row spread"><div data-question><p class="small dim">${data.model}${question && ` · ${question.kind}`}</p>${question && html`<h2 class="first">${question.title}</h2>${question.rows.map((text) => html`<p class="small dim">${text}</p>`)}`}</div>${data.cases && html`<button class="button" onClick=${save}>${t('Download the cases')}</button>`}</div>
-    <p class=${counts.failed ? 'caution' : 'ok'} data-study=${data.study}>${counts.failed ? '▲' : '●'} ${counts.failed ? t('{run} cases, {failed} without a result', { run: counts.run, failed: counts.failed }) : t('{run} cases, each with a result', { run: counts.run })}${data.complete ? '' : ` · ${t('stopped early')}`}</p>
+    <p class=${counts.failed ? 'caution' : 'ok'} data-study=${data.study}>${counts.failed ? '▲' : '●'} ${counts.failed ? t('{run} cases, {failed} without a result', { run: counts.run, failed: counts.failed }) : t('{run} cases, each with a result', { run: counts.run })}${data.complete ? '' : ` · ${data.goes_on ? t('so far') : t('stopped early')}`}</p>
     ${data.warnings.map((text) => html`<p class="small caution">${text}</p>`)}
     ${data.charts.map((c) => html`<${Plot} key=${c.name} figure=${c.figure} label=${c.figure.layout.title?.text || c.name} />`)}
     ${data.tables.some((table) => table.columns.includes('P90')) && html`<p class="small dim" data-shares>${t('P10, P50, P90: a tenth, half and nine tenths of the cases lie below.')}</p>`}
