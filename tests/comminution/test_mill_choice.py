@@ -52,6 +52,14 @@ def test_the_nearer_the_better() -> None:
     assert marks == pytest.approx([1.0, 0.1, 0.01])
 
 
+def test_the_end_of_a_range_is_within_it() -> None:
+    """Read in other units, 200 µm is no longer the 0.2 mm of the table to the last digit."""
+    found = choose("20 mm", "200 um")
+    place = [name.startswith("intermediate") for name in found.mill].index(True)
+    assert found.speaks_against[place] == ""
+    assert found.suitability[place] == 1.0
+
+
 def test_a_mill_makes_nothing_coarser() -> None:
     with pytest.raises(InputError, match="finer than the feed"):
         choose("1 mm", "2 mm")

@@ -28,8 +28,8 @@ class Mills(NamedTuple):
 
 
 def _outside(value: float, low: float, high: float) -> float:
-    """Decades that a value lies outside a range."""
-    return max(log10(low / value), log10(value / high), 0.0)
+    """Decades that a value lies outside a range, no rounding counted."""
+    return max(round(log10(low / value), 9), round(log10(value / high), 9), 0.0)
 
 
 def _length(value: float) -> str:
@@ -78,4 +78,4 @@ def mill_choice(feed_size: Length, product_size: Length, abrasive: bool = False)
     rows.sort(key=lambda row: (-row[0], row[1]))
     columns: Any = list(zip(*rows, strict=True))
     names: Any = tuple(map(_, columns[2]))
-    return Mills(names, np.array(columns[0]), *columns[3:])
+    return Mills(names, np.round(columns[0], 3), *columns[3:])
