@@ -36,10 +36,13 @@ def read_toml(text: str) -> dict[str, Any]:
 
 
 def table_in(text: str, name: str) -> Any:
-    """The table or list that a text holds, as JSON or as it stands in a case file.
+    """The table or list that a text holds, as JSON or as it stands in a case file; the text in brackets of a
+    list without quotation marks, which is read as one typed without brackets.
 
     >>> table_in('{"law": "page"}', "kinetics") == table_in('{law = "page"}', "kinetics")
     True
+    >>> table_in("[20 g/L, 50 g/L]", "concentration_points")
+    '20 g/L, 50 g/L'
     """
     try:
         return json.loads(text)
@@ -48,6 +51,8 @@ def table_in(text: str, name: str) -> Any:
     try:
         return read_toml(f"v = {text}")["v"]
     except InputError:
+        if bare := _BARE_LIST.fullmatch(text.strip()):
+            return bare[1].strip()
         raise InputError(
             _("'{name}': '{text}' is no table; write it as {example}.").format(
                 name=name, text=text[:40], example='{law = "…", … = "…"}'
@@ -89,6 +94,7 @@ def _as_written(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
+_BARE_LIST = re.compile(r"\[([^][{}\"']+)\]")
 _SAID = re.compile(
     r"(?P<what>.*) \(at (?:line (?P<line>\d+), column (?P<column>\d+)|end of document)\)", re.DOTALL
 )
