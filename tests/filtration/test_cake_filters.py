@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.commands import granum
 
 from granum.core.constants import ZERO_CELSIUS
 from granum.filtration.equipment.batch import (
@@ -127,6 +128,14 @@ def test_balances_close_and_figures_make_sense(name, washed):
     else:
         assert float(out.washings.mass_flow) == 0.0
     assert all(check.source and check.name for check in unit.operate(**inlets).checks)
+
+
+def test_wash_without_a_zone_for_it_is_refused():
+    words = ["calc", "filtration.horizontal_belt_filter", "wash_share=0"]
+    status, shown, told = granum(*words, "wash.liquid_flow=0.3 t/h")
+    assert (status, shown) == (3, "")
+    assert "'wash_share'" in told
+    assert granum(*words, "wash=no")[0] == 0
 
 
 def test_cycle_of_a_press_by_hand():

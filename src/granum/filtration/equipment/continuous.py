@@ -11,18 +11,19 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import RPM, STANDARD_ATMOSPHERE
+from granum.core.flags import unsolved
 from granum.core.kinds import Fraction, Length, Permeability, PowerPerArea, Speed, TurningSpeed, Within
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
+from granum.numerics.smooth import safe_divide
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, PUMPED, evacuated, pumped
 
-# m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
-NO_WASH = 1e-12
+NO_ZONE = "Wash enters, and no share of the turn is for washing: give 'wash_share', or no wash."
 HARDEST = 1e3  # Pa, below which no filter is evacuated
 PRECOAT_DENSITY = 300.0  # kg/m³, of a settled layer of filter aid
 DRIVES = (
@@ -72,8 +73,9 @@ class ContinuousFilter(CakeFilter):
         )
         most = s.dry_cake_per_filtrate * filtrate
         loading = s.solid_flow * turn / self.area
-        wash_volume = 0.0 if wash is None else wash.liquid_volume_flow * turn / self.area
-        use = wash_volume / jnp.maximum(self.wash_flux(loading, s) * washed, NO_WASH)
+        wash_volume = jnp.zeros(()) if wash is None else wash.liquid_volume_flow * turn / self.area
+        unsolved((washed > 0.0) | ~(wash_volume > 0.0), type(self).card, reason=NO_ZONE)
+        use = safe_divide(wash_volume, self.wash_flux(loading, s) * washed, 0.0)
         return Plan(
             loading,
             self.thickness(loading, s.solid_density),
