@@ -58,7 +58,7 @@ def test_a_filling_sinks_until_it_meets_its_cake() -> None:
 @pytest.mark.parametrize("key", ["filtration.gas_carbon_bed", "filtration.liquid_carbon_bed"])
 def test_a_bed_takes_up_what_it_holds(key: str) -> None:
     run, figures = solved(key)
-    second = {"filtration.gas_carbon_bed": 60.0, "filtration.liquid_carbon_bed": 86400.0}[key]
+    second = {"filtration.gas_carbon_bed": 3600.0, "filtration.liquid_carbon_bed": 86400.0}[key]
     ((time, passes),) = drawn(run, "Breakthrough of a bed").values()
     unit = run.line.sheet.units[key.partition(".")[2]]
     assert np.all(np.diff(passes) >= 0.0)

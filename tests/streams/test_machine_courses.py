@@ -126,7 +126,7 @@ def test_ice_leaves_a_vial_and_a_tray_in_the_time_told() -> None:
         _run, figures, lines = drawn(key, heading)
         time, front = lines["ice front"]
         assert np.all(np.diff(time) >= 0.0)
-        assert 60.0 * time[-1] == pytest.approx(figures.drying_time_primary, rel=2e-3)
+        assert 3600.0 * time[-1] == pytest.approx(figures.drying_time_primary, rel=2e-3)
         assert np.all(front < lines["shelf"][1])
         assert np.all(lines["sublimation"][1] >= 0.0)
 

@@ -1,4 +1,4 @@
-"""Flux of a membrane against what it holds back, as measured: the laws of the family ``filtrate_flux``."""
+"""Flux of a membrane against what it holds back, as measured: the laws of the family ``membrane_flux``."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from granum.numerics import safe_divide
 
 
 @law(
-    "filtrate_flux",
+    "membrane_flux",
     name="measured_flux",
     source="cheryan1998",
     equation=r"u(\ln c) \text{ linear between points}\ (c_i,\ u_i)",
-    symbols={"concentration_retentate": "c", "filtrate_flux": "u", "concentration_points": "c_i"},
+    symbols={"concentration_retentate": "c", "membrane_flux": "u", "concentration_points": "c_i"},
     title="Membrane flux by points",
 )
 class MeasuredFlux(eqx.Module):

@@ -243,7 +243,7 @@ class Ultrafiltration(_Plant):
     stage_count: Literal["1", "2", "3", "4", "5", "6"] = eqx.field(kw_only=True, static=True, default="1")
     circulation_flow: VolumeFlow = eqx.field(kw_only=True, default=0.0)
     pressure_drop_channel: PressureDrop = eqx.field(kw_only=True, default=1e5)
-    flux_law: Annotated[Any, Law("filtrate_flux")] = eqx.field(kw_only=True, default=None)
+    flux_law: Annotated[Any, Law("membrane_flux")] = eqx.field(kw_only=True, default=None)
 
     limits: ClassVar[Limits] = {
         "flux": Limit("flux of the membrane", 1.4e-6, 1.4e-4, "m/s", SOURCE),
