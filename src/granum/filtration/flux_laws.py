@@ -9,7 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import law
 from granum.core.kinds import Concentration, Series, Speed, Within
-from granum.numerics import safe_divide
+from granum.numerics import falling
 
 
 @law(
@@ -37,9 +37,6 @@ class MeasuredFlux(eqx.Module):
 
     def __call__(self, concentration_retentate: Concentration) -> Speed:
         """Flux at a concentration."""
-        c, u = jnp.asarray(self.concentration_points, float), jnp.asarray(self.flux_points, float)
-        order = jnp.argsort(c)
-        x, y = jnp.log(c[order]), u[order]
-        at = jnp.log(jnp.maximum(jnp.asarray(concentration_retentate, float), 1e-12))
-        fall = jnp.minimum(safe_divide(y[-1] - y[-2], x[-1] - x[-2], 0.0), 0.0) if x.size > 1 else 0.0
-        return jnp.maximum(jnp.interp(at, x, y) + fall * jnp.maximum(at - x[-1], 0.0), 0.0)
+        points = jnp.log(jnp.asarray(self.concentration_points, dtype=float))
+        at = jnp.log(jnp.maximum(jnp.asarray(concentration_retentate, dtype=float), 1e-12))
+        return jnp.maximum(falling(at, points, self.flux_points), 0.0)

@@ -48,6 +48,7 @@ _HOME = {
     "moments": "quadrature",
     "cumulative_trapezoid": "quadrature",
     "cumulative_simpson": "quadrature",
+    "falling": "interpolation",
     "interpolate_linear": "interpolation",
     "MonotoneCubic": "interpolation",
     "slopes_pchip": "interpolation",

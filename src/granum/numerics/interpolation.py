@@ -159,3 +159,17 @@ def _with_ends(inner: jax.Array, h: jax.Array, d: jax.Array, most: float) -> jax
     first = end(h[0], h[1], d[0], d[1])
     last = end(h[-1], h[-2], d[-1], d[-2])
     return jnp.concatenate([first[None], inner, last[None]])
+
+
+def falling(at: Any, x: Any, y: Any) -> Any:
+    """What was measured at points in any order, straight from one to the next: before the first that of the
+    first, beyond the last falling on as between the last two, or level.
+
+    >>> [float(falling(at, [4.0, 2.0], [1.0, 3.0])) for at in (1.0, 3.0, 5.0)]
+    [3.0, 2.0, 0.0]
+    """
+    x, y = jnp.asarray(x, dtype=float), jnp.asarray(y, dtype=float)
+    order = jnp.argsort(x)
+    x, y = x[order], y[order]
+    slope = jnp.minimum(safe_divide(y[-1] - y[-2], x[-1] - x[-2], 0.0), 0.0) if x.size > 1 else 0.0
+    return jnp.interp(at, x, y) + slope * jnp.maximum(at - x[-1], 0.0)

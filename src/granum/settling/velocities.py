@@ -24,7 +24,7 @@ from granum.core.kinds import (
     VolumePerMass,
     Within,
 )
-from granum.numerics import safe_divide, safe_power
+from granum.numerics import falling, safe_power
 from granum.particles.formulas.hindered import hindrance_richardson_zaki
 
 
@@ -226,12 +226,7 @@ class MeasuredSettling(eqx.Module):
 
     def __call__(self, solids_concentration: Concentration) -> Speed:
         """Velocity at a concentration."""
-        C, v = (
-            jnp.asarray(self.concentration_points, float),
-            jnp.asarray(self.settling_velocity_points, float),
-        )
-        order = jnp.argsort(C)
-        x, y = jnp.log(C[order]), jnp.log(v[order])
-        at = jnp.log(jnp.maximum(jnp.asarray(solids_concentration, float), 1e-12))
-        fall = jnp.minimum(safe_divide(y[-1] - y[-2], x[-1] - x[-2], 0.0), 0.0) if x.size > 1 else 0.0
-        return jnp.exp(jnp.interp(at, x, y) + fall * jnp.maximum(at - x[-1], 0.0))
+        points = jnp.log(jnp.asarray(self.concentration_points, dtype=float))
+        velocities = jnp.log(jnp.asarray(self.settling_velocity_points, dtype=float))
+        at = jnp.log(jnp.maximum(jnp.asarray(solids_concentration, dtype=float), 1e-12))
+        return jnp.exp(falling(at, points, velocities))
