@@ -75,7 +75,7 @@ def test_a_bed_takes_up_what_it_holds(key: str) -> None:
 def test_stages_add_up_to_the_plant(key: str) -> None:
     run, figures = solved(key)
     lines = drawn(run, "From stage to stage")
-    flux = 1e-6 * lines["flux"][1]
+    flux = lines["flux"][1] / 3.6e6  # L/(m² h)
     assert flux.mean() == pytest.approx(figures.filtrate_flux, rel=1e-9)
     assert flux[-1] == pytest.approx(figures.filtrate_flux_last, rel=1e-9)
     assert np.all(np.diff(flux) < 0.0)
@@ -93,7 +93,7 @@ def test_between_pulses_the_flux_makes_the_filtrate() -> None:
     lines = drawn(run, "Between two pulses")
     time, flux = lines["flux"]
     assert lines["cake"][1][-1] == pytest.approx(1e6 * figures.cake_thickness, rel=1e-6)
-    assert flux[-1] == pytest.approx(1e3 * figures.filtrate_flux_last, rel=1e-6)
+    assert flux[-1] == pytest.approx(3.6e6 * figures.filtrate_flux_last, rel=1e-6)
     # Ruth almost without a medium: u √t stays
     late = time > 1.0
     assert np.ptp((flux * np.sqrt(time))[late]) < 0.02 * flux[-1] * np.sqrt(time[-1])

@@ -92,13 +92,17 @@ def drawn_along(
     of the lines.
     """
     from granum.core import charts
+    from granum.core.glossary import glossary
     from granum.core.units import best_unit, from_si
 
     def unit(axis: Axis, values: Any) -> str:
         if axis.unit is not None:
             return axis.unit
+        kind, usual = KINDS[axis.kind], glossary()[axis.word].unit if axis.word in glossary() else None
+        if usual and usual not in kind.units:  # of this quantity alone, as the flux of a membrane has one
+            return usual
         sizes = np.abs(np.asarray(values, dtype=float))
-        return best_unit(float((np.nanmedian if axis.log else np.nanmax)(sizes)), KINDS[axis.kind])
+        return best_unit(float((np.nanmedian if axis.log else np.nanmax)(sizes)), kind)
 
     def shown(axis: Axis, values: Any, in_unit: str) -> np.ndarray:
         return np.asarray(from_si(np.asarray(values, dtype=float), in_unit, KINDS[axis.kind]))
