@@ -258,7 +258,7 @@ def filters(classes: int) -> dict[str, Case]:
         ),
         "precoat": Case(
             fine,
-            with_wash,
+            alone,  # it has no zone for a wash
             lambda f, u: PrecoatDrum(
                 *_cake(f, u),
                 rotation_speed=0.02 + 0.18 * u[4],

@@ -23,7 +23,10 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, PUMPED, evacuated, pumped
 
-NO_ZONE = "Wash enters, and no share of the turn is for washing: give 'wash_share', or no wash."
+NO_ZONE = (
+    "Wash enters, and no share of the turn is for washing: leave it out, or give 'wash_share' where the "
+    "filter has one."
+)
 HARDEST = 1e3  # Pa, below which no filter is evacuated
 PRECOAT_DENSITY = 300.0  # kg/m³, of a settled layer of filter aid
 DRIVES = (
