@@ -138,7 +138,7 @@ def test_a_hundred_bins_keep_their_books() -> None:
 
         blown, outlets, figures = made(1.0)
         product, exhaust, duty = outlets
-        water = product.liquid_flow + exhaust.gas[1] - feed.liquid_flow - blown.gas[1]
+        water = product.liquid_flow + exhaust.gas[1] + exhaust.liquid_flow - feed.liquid_flow - blown.gas[1]
         heat = product.enthalpy_flow + exhaust.enthalpy_flow - feed.enthalpy_flow - blown.enthalpy_flow - duty
         low, high = figures.moisture_dry_basis_lowest, figures.moisture_dry_basis_highest
         mean = figures.moisture_dry_basis
