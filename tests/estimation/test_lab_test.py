@@ -110,7 +110,7 @@ def test_messages_on_files_and_columns(tmp_path):
         Emptying.read(tmp_path / "leef.csv", area=1)
     with pytest.raises(InputError, match="needs 'area'"):
         Emptying.read(tmp_path / "leaf.csv")
-    with pytest.raises(InputError, match="unequal lengths"):
+    with pytest.raises(InputError, match="Unequal numbers"):
         Emptying(time=[1, 2, 3], filtrate_volume=[1, 2, 3, 4], area=1)
     with pytest.raises(InputError, match="must increase"):
         Emptying(time=[1, 3, 2], filtrate_volume=[1, 2, 3], area=1).fit()

@@ -7,7 +7,7 @@ from __future__ import annotations
 import contextlib
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from typing import Any
@@ -348,11 +348,18 @@ class Binder:
     owner: str
     parameters: tuple[Parameter, ...]
     index: dict[str, int] = field(default_factory=dict)
+    along: tuple[tuple[int, ...], ...] = ()
+    """Places of parameters that run along one and the same axis."""
 
     @staticmethod
     def of(owner: str, parameters: tuple[Parameter, ...]) -> Binder:
         """A binder for the card named ``owner``."""
-        return Binder(owner, parameters, {p.name: i for i, p in enumerate(parameters)})
+        axes: dict[str, list[int]] = {}
+        for i, p in enumerate(parameters):
+            if p.series:
+                axes.setdefault(p.series, []).append(i)
+        along = tuple(tuple(places) for places in axes.values() if len(places) > 1)
+        return Binder(owner, parameters, {p.name: i for i, p in enumerate(parameters)}, along)
 
     def resolved(
         self, args: tuple[Any, ...], kwargs: Mapping[str, Any]
@@ -437,3 +444,15 @@ class Binder:
             p.name: convert(value, p, where)
             for p, value in zip(self.parameters, self.arrange(args, given), strict=True)
         }
+
+    def equally_long(self, values: Sequence[Any]) -> None:
+        """Refuse series along one axis that are not equally long; an optional one may be a single value.
+        Procedures, some of which repeat a single value, look for themselves.
+        """
+        for group in self.along:
+            rows = [(self.parameters[i], np.shape(values[i])[-1]) for i in group if np.ndim(values[i])]
+            if len({count for p, count in rows if p.required or count > 1}) > 1:
+                shown = ", ".join(f"{quoted(p.name)} ({count})" for p, count in rows)
+                raise InputError(
+                    _("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0].name
+                )

@@ -121,7 +121,9 @@ def _declare(
             owner = _(" for {owner}").format(owner=cls.card.key)  # type: ignore[attr-defined]
             for p in cls.card.parameters:  # type: ignore[attr-defined]
                 not_a_specific_gravity(given.get(p.name), p, owner)
-        original(self, **binder[0].bind(args, given))
+        bound = binder[0].bind(args, given)
+        binder[0].equally_long(list(bound.values()))
+        original(self, **bound)
         if origins and sort == "lab test":
             object.__setattr__(self, "origins", tuple(origins.items()))
             object.__setattr__(self, "of_fluid", tuple(json.dumps(row) for row in describe(of_inputs)))

@@ -97,15 +97,6 @@ class Formula(Generic[P, R]):
         return tuple(p.kind is None or p.sort is int for p in self.card.parameters)
 
     @functools.cached_property
-    def _series(self) -> tuple[tuple[int, ...], ...]:
-        """Places of the arguments that run along one and the same axis."""
-        along: dict[str, list[int]] = {}
-        for i, p in enumerate(self.card.parameters):
-            if p.series:
-                along.setdefault(p.series, []).append(i)
-        return tuple(tuple(group) for group in along.values() if len(group) > 1)
-
-    @functools.cached_property
     def _signature(self) -> inspect.Signature:
         return inspect.signature(self.function)
 
@@ -142,8 +133,7 @@ class Formula(Generic[P, R]):
             if p.kind is None and not isinstance(value, (Formula, str, bool, int, type(None))):
                 traced = traced or any(map(is_tracer, jax.tree_util.tree_leaves(value)))
             batched = batched or (p.kind is not None and not p.series and getattr(value, "ndim", 0) > 0)
-        if self._series:
-            self._check_lengths(values)
+        self._binder.equally_long(values)
         if batched:
             self._check_shapes(values)
         return values, traced, batched
@@ -162,16 +152,6 @@ class Formula(Generic[P, R]):
             raise InputError(
                 _("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0]
             ) from None
-
-    def _check_lengths(self, values: list[Any]) -> None:
-        """Series along one axis are equally long; an optional one may be a single value for all."""
-        for group in self._series:
-            rows = [(self.card.parameters[i], np.shape(values[i])[-1]) for i in group if np.ndim(values[i])]
-            if len({count for p, count in rows if p.required or count > 1}) > 1:
-                shown = ", ".join(f"{quoted(p.name)} ({count})" for p, count in rows)
-                raise InputError(
-                    _("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0].name
-                )
 
     @contextmanager
     def _fitting(self, values: list[Any]) -> Iterator[None]:

@@ -63,9 +63,6 @@ class LabTest(eqx.Module):
             for p in card.parameters
             if p.series and (value := getattr(self, p.name)) is not None
         }
-        if len(set(lengths.values())) > 1:
-            shown = ", ".join(f"{name} ({count})" for name, count in lengths.items())
-            raise InputError(_("The columns have unequal lengths: {columns}.").format(columns=shown))
         if lengths and min(lengths.values()) < self.least_points:
             message = _("{card} needs at least {least} points; {given} were given.").format(
                 card=card.key, least=self.least_points, given=min(lengths.values())

@@ -7,7 +7,7 @@ from typing import Annotated
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import law
+from granum.core import law, points
 from granum.core.kinds import Concentration, Series, Speed, Within
 from granum.numerics import falling
 
@@ -35,8 +35,11 @@ class MeasuredFlux(eqx.Module):
     concentration_points: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]
     flux_points: Annotated[Speed, Series("points")]
 
+    def __check_init__(self) -> None:
+        points.fall("flux_points", self.flux_points, "concentration_points", self.concentration_points)
+
     def __call__(self, concentration_retentate: Concentration) -> Speed:
         """Flux at a concentration."""
-        points = jnp.log(jnp.asarray(self.concentration_points, dtype=float))
+        known = jnp.log(jnp.asarray(self.concentration_points, dtype=float))
         at = jnp.log(jnp.maximum(jnp.asarray(concentration_retentate, dtype=float), 1e-12))
-        return jnp.maximum(falling(at, points, self.flux_points), 0.0)
+        return jnp.maximum(falling(at, known, self.flux_points), 0.0)

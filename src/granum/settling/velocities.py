@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import law
+from granum.core import law, points
 from granum.core.kinds import (
     Concentration,
     Density,
@@ -224,9 +224,13 @@ class MeasuredSettling(eqx.Module):
     concentration_points: Annotated[Annotated[Concentration, Within(1e-3)], Series("points")]
     settling_velocity_points: Annotated[Annotated[Speed, Within(1e-12)], Series("points")]
 
+    def __check_init__(self) -> None:
+        velocities, concentrations = self.settling_velocity_points, self.concentration_points
+        points.fall("settling_velocity_points", velocities, "concentration_points", concentrations)
+
     def __call__(self, solids_concentration: Concentration) -> Speed:
         """Velocity at a concentration."""
-        points = jnp.log(jnp.asarray(self.concentration_points, dtype=float))
+        known = jnp.log(jnp.asarray(self.concentration_points, dtype=float))
         velocities = jnp.log(jnp.asarray(self.settling_velocity_points, dtype=float))
         at = jnp.log(jnp.maximum(jnp.asarray(solids_concentration, dtype=float), 1e-12))
-        return jnp.exp(falling(at, points, velocities))
+        return jnp.exp(falling(at, known, velocities))

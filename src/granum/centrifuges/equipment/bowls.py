@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import abc
 from dataclasses import KW_ONLY
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
@@ -22,7 +22,7 @@ from granum.centrifuges.formulas.mechanics import (
 )
 from granum.core.errors import InputError
 from granum.core.i18n import _ as translated
-from granum.core.kinds import Density, Length, OpenFraction, PositiveNumber, Stress, TurningSpeed
+from granum.core.kinds import Density, Length, OpenFraction, PositiveNumber, Stress, TurningSpeed, Within
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.settling.equipment.gravity import (
@@ -118,7 +118,7 @@ class Bowl(Unit):
     bowl_radius: Length | None = None
     wall_thickness: Length | None = None
     stress_allowed: Stress = 3e8
-    wall_density: Density = 7850.0
+    wall_density: Annotated[Density, Within(500.0, 2.5e4)] = 7850.0
 
     utilities: ClassVar[Utilities] = DRIVE
 

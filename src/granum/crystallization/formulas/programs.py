@@ -8,7 +8,7 @@ from typing import Annotated
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import formula, impossible, law
+from granum.core import formula, impossible, law, points
 from granum.core.kinds import (
     Fraction,
     MassFlow,
@@ -134,6 +134,9 @@ class TemperaturePoints(Program):
 
     time_points: Annotated[Time, Series("points")]
     temperature: Annotated[Temperature, Series("points")]
+
+    def __check_init__(self) -> None:
+        points.follow("time_points", self.time_points)
 
     def __call__(self, time: Time) -> Temperature:
         return jnp.interp(
