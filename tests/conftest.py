@@ -29,6 +29,8 @@ from hypothesis import settings
 
 import granum  # noqa: F401
 from granum.core.garbage import collect_seldom
+from granum.core.operations import Step
+from granum.core.traces import Operation
 
 collect_seldom()
 
@@ -95,6 +97,23 @@ def _bounded_memory():
     if _resident() > max(MUCH, _kept + MORE) or _maps() > MANY_MAPS:
         _forget()
     _looked = time.monotonic()
+
+
+@pytest.fixture
+def left_to_jax(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Operations that NumPy does not do in programs read meanwhile: such a program is kept for no later
+    process, and each traces it anew.
+    """
+    from granum.core import uncompiled
+
+    names, by_jax = [], uncompiled.operation
+
+    def noted(op: Operation) -> Step:
+        names.append(op.name)
+        return by_jax(op)
+
+    monkeypatch.setattr(uncompiled, "operation", noted)
+    return names
 
 
 def _maps() -> int:

@@ -27,8 +27,9 @@ DRUM = "filtration.rotary_vacuum_drum"
 
 
 @pytest.mark.parametrize("key", EQUIPMENT)
-def test_it_opens_with_a_result_and_without_a_flag(key: str) -> None:
+def test_it_opens_with_a_result_and_without_a_flag(key: str, left_to_jax: list[str]) -> None:
     run = alone(key).solve()
+    assert left_to_jax == []
     (report,) = run.units.values()
     assert all(p.kind is None or p.optional or value is not None for p, value in report.figures())
     assert [check.name for check in report.checks if not check.ok] == []

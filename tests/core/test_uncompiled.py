@@ -43,7 +43,7 @@ OF_ARRAYS: dict[str, Callable[[Any, Any], Any]] = {
     "shapes": lambda x, v: (
         x.T, x[::-1, 1:3], x.reshape(2, 6), jnp.squeeze(x[:, :1]), jnp.stack([v, v]), jnp.roll(v, 1),
         jnp.concatenate([x, x]), jnp.pad(x, 1), jnp.broadcast_to(v, (3, 4)), jnp.arange(4) * v, v[:, None],
-        jnp.split(v, 2), jnp.diff(x), jnp.flip(v), jnp.tile(v, 2), jnp.eye(4)[1] * v,
+        jnp.split(v, 2), jnp.diff(x), jnp.flip(v), jnp.tile(v, 2), jnp.tile(x, (2, 3)), jnp.eye(4)[1] * v,
     ),
     "picked": lambda x, v: (
         x[jnp.array([0, 2, 5]), 1], x[:, jnp.array([3, 0])], jnp.take(v, jnp.array([1, 9])), v[WHOLE],
@@ -60,7 +60,10 @@ OF_ARRAYS: dict[str, Callable[[Any, Any], Any]] = {
         jax.vmap(lambda i: lax.dynamic_slice(x, (1, i), (2, 3)))(jnp.array([[0, 2], [1, 5]]).ravel()),
         jax.vmap(lambda i: lax.dynamic_slice(x, (i, 1), (1, 3))[0], out_axes=1)(jnp.array([0, 7])),
     ),
-    "sorted": lambda x, v: (jnp.sort(v), jnp.argsort(x, 0), jnp.median(x), jnp.unique(v, size=4)),
+    "sorted": lambda x, v: (
+        jnp.sort(v), jnp.argsort(x, 0), jnp.median(x), jnp.unique(v, size=4), jnp.sort(x, 0),
+        lax.sort((x > 1.0, x), dimension=1), lax.sort((x > 1.0, x), dimension=0, num_keys=2),
+    ),
     "interpolated": lambda x, v: (jnp.interp(x, jnp.sort(v), v), jnp.polyval(v, x)),
     "solved": lambda x, v: (
         lax.linalg.lu(x[:, :3]), jnp.linalg.solve(x[:, :3] + 9.0 * jnp.eye(3), v[:3]),
@@ -80,6 +83,9 @@ OF_ARRAYS: dict[str, Callable[[Any, Any], Any]] = {
     "several at once": lambda x, v: (
         jax.vmap(lambda y: lax.while_loop(lambda z: z < 10.0, lambda z: z * z + 1.0, y))(v),
         jax.vmap(lambda y, i: lax.dynamic_slice(y, (i,), (2,)))(x, jnp.array([0, 2, 9])),
+        jax.vmap(lambda y, i: y[i])(x, jnp.array([3, 9, 1])),
+        jax.vmap(lambda y, i: y[i])(x, WHOLE.reshape(3, 2)),
+        jax.vmap(lambda y, i: y[:, i])(jnp.stack([x, 2 * x, 3 * x]), jnp.array([3, 0, 1])),
         jax.vmap(lambda y, i: y.at[i].set(5.0))(x, jnp.array([0, 2, 3])),
     ),
     "choices": lambda x, v: (
@@ -119,7 +125,8 @@ def test_operations_on_arrays(which: str) -> None:
 def test_numbers_of_indices_and_bits() -> None:
     same(lambda n: (n // 2, n % 3, n << 1, n >> 1, ~n, n & 6, n.astype(float) / 7, n.max(), -n), WHOLE)
     same(lambda x: lax.bitcast_convert_type(x, jnp.int64), X)
-    same(lambda x: lax.sort(x), np.array([0.0, -0.0, np.inf, -1.0]))
+    same(lambda n: jnp.asarray(n).at[jnp.array([4, 0])].get(mode="promise_in_bounds"), WHOLE)
+    same(lambda x: lax.sort(x), np.array([0.0, -0.0, np.inf, -1.0, np.nan, -np.inf]))
 
 
 def test_a_program_may_run_while_another_is_traced() -> None:

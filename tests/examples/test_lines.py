@@ -32,8 +32,9 @@ def run(name: str):
 
 
 @pytest.mark.parametrize("name", LINES)
-def test_closes(name: str) -> None:
+def test_closes(name: str, left_to_jax: list[str]) -> None:
     audit = run(name).audit
+    assert left_to_jax == []
     assert audit["mass_closure"] < 1e-9
     assert audit["energy_closure"] < 1e-9
 

@@ -11,9 +11,10 @@ LINES = sorted((Path(__file__).parents[2] / "benchmarks" / "lines").glob("*.toml
 
 @pytest.mark.long
 @pytest.mark.parametrize("path", LINES, ids=lambda path: path.stem)
-def test_line_is_solved_closes_and_meets_its_specifications(path: Path) -> None:
+def test_line_is_solved_closes_and_meets_its_specifications(path: Path, left_to_jax: list[str]) -> None:
     line = gr.read(path)
     run = line.solve()
+    assert left_to_jax == []
     assert run.audit["mass_closure"] <= 1e-9
     assert run.audit["energy_closure"] <= 1e-9
     assert set(run.found) == {target.vary for target in line.targets}

@@ -291,23 +291,26 @@ def _gather(params: Any, op: Operation) -> Step | None:
     JAX.
     """
     numbers, shape, mode = params["dimension_numbers"], op.given[0].shape, params["mode"]
-    if not numbers.operand_batching_dims and "CLIP" in str(mode):
+    rows = tuple(numbers.operand_batching_dims)
+    if not rows and "CLIP" in str(mode):
         return _windows(params, shape)
     indexed = tuple(numbers.start_index_map)
-    others = tuple(axis for axis in range(len(shape)) if axis not in indexed)
+    others = tuple(axis for axis in range(len(shape)) if axis not in indexed + rows)
     full = all(params["slice_sizes"][axis] == shape[axis] for axis in others)
-    if numbers.operand_batching_dims or set(numbers.collapsed_slice_dims) != set(indexed) or not full:
+    if set(numbers.collapsed_slice_dims) != set(indexed) or not full:
         return None
     sizes, fill = [shape[axis] for axis in indexed], params["fill_value"]
     if fill is None:
-        if op.made[0].dtype.kind != "f":
+        if op.made[0].dtype.kind != "f" and "PROMISE" not in str(mode):
             return None
         fill = np.nan
 
     def step(x: Any, indices: Any) -> Any:
         places, inside = _places(indices, mode, sizes)
+        own = np.indices(inside.shape, sparse=True)  # each row is picked from by its own indices
         safe = tuple(np.where(inside, place, 0) for place in places)
-        found = np.transpose(x, indexed + others)[safe]
+        safe += tuple(own[axis] for axis in numbers.start_indices_batching_dims)
+        found = np.transpose(x, indexed + rows + others)[safe]
         lost = ~np.reshape(inside, inside.shape + (1,) * len(others))
         if lost.any():
             found = np.where(lost, fill, found)
@@ -402,6 +405,21 @@ def _padded(params: Any, _op: Operation) -> Step | None:
     return lambda x, filling: np.pad(x, widths, constant_values=filling)
 
 
+def _sorted(params: Any, _op: Operation) -> Step | None:
+    """Along one axis by the first array, the others following it; what is alike keeps its order."""
+    axis: int = params["dimension"]
+    if params["num_keys"] != 1:
+        return None
+
+    def step(key: Any, *others: Any) -> Any:
+        if not others:
+            return np.sort(key, axis, kind="stable")
+        order = np.argsort(key, axis, kind="stable")
+        return [np.take_along_axis(x, order, axis) for x in (key, *others)]
+
+    return step
+
+
 def _triangles(_params: Any, op: Operation) -> Step | None:
     """The factors of a square matrix, its rows exchanged, and the order of the rows."""
     if op.given[0].ndim != 2 or op.given[0].dtype != float:
@@ -470,6 +488,8 @@ SHAPED: dict[str, Callable[[Any, Any], Step | None]] = {
     "scatter": _scatter(_put),
     "scatter-add": _scatter(np.add.at),
     "scatter-mul": _scatter(np.multiply.at),
+    "sort": _sorted,
+    "tile": lambda params, _op: lambda x: np.tile(x, params["reps"]),
     "stack": lambda params, _op: lambda *parts: np.stack(parts, axis=params["axis"]),
     "split": _split,
     "iota": _iota,
