@@ -113,16 +113,16 @@ def test_a_lone_point_is_no_locus() -> None:
 
 def test_strength_as_a_power_of_a_tutorial() -> None:
     """scribd.com 380917158, question 1, read: σ_y = σ_c^0.68 in kPa and a flow factor of 1.4 meet at 2.043
-    kPa: a slot of 0.2249 m with H = 1 + θ/180, a cone of 0.299 m with H = 2 + θ/60.
+    kPa: a cone of 0.299 m with H = 2 + θ/60, a slot with H = 1 + θ/180, whose 1.1944·2043/(1800·9.81) m are
+    printed as 0.2249.
     """
     met = float(gr.conveying.critical_strength(0.0, 1.0, 1.4, 0.68))
     assert met == pytest.approx(2043.0, rel=1e-3)
     assert float(gr.conveying.unconfined_strength(1.4 * met, 0.0, 1.0, 0.68)) == pytest.approx(met, rel=1e-9)
     at = 35.0 * np.pi / 180.0
     assert float(gr.conveying.outlet_width_jenike(met, 1800.0, at)) == pytest.approx(0.299, rel=0.02)
-    assert float(gr.conveying.outlet_width_jenike(met, 1800.0, at, "wedge")) == pytest.approx(
-        0.2249, rel=0.02
-    )
+    slot = 1.1944 * 2043.0 / (1800.0 * 9.81)
+    assert float(gr.conveying.outlet_width_jenike(met, 1800.0, at, "wedge")) == pytest.approx(slot, rel=0.02)
 
 
 def test_powers_against_a_bisection_and_the_line_as_their_end() -> None:
