@@ -277,6 +277,7 @@ from granum.drying.formulas.moisture import (
     moisture_dry_basis as moisture_dry_basis,
     moisture_dry_basis_from_mass as moisture_dry_basis_from_mass,
     moisture_wet_basis as moisture_wet_basis,
+    sticking_share_particle_gun as sticking_share_particle_gun,
     water_activity as water_activity,
 )
 from granum.drying.formulas.moisture_ratios import (
