@@ -400,6 +400,10 @@ from granum.drying.gas_solid.mixed import (
     Solid as Solid,
     Spread as Spread,
 )
+from granum.drying.isotherm_charts import (
+    isotherms_chart as isotherms_chart,
+    stability_chart as stability_chart,
+)
 from granum.drying.isotherms.adsorption import (
     Bet as Bet,
     BetLayers as BetLayers,
