@@ -310,7 +310,7 @@ def sticking_share_particle_gun(
     transition.
 
     The constants are those measured for skim milk powder, 33.6 ± 0.8 K and 3.1 ± 0.7 % per kelvin; the same
-    laboratory found margins of 28 K for cheese powder, 37 and 38 K for cream powders (abstracts read).
+    laboratory found a margin of 28 K for cheese powder and of 38 K for a rich cream powder (abstracts read).
 
     By hand: 10 K beyond the margin.
 
