@@ -462,6 +462,7 @@ BY_BALANCE: dict[str, Callable[..., Setting]] = {
             between(c, 0.05, 1.0),
             1.5e5 + 8e5 * e,
             critical_moisture=0.05 + 0.4 * f,
+            pressure=between(g, 3e3, 1.01e5),
         ),
         POWDER,
     ),

@@ -109,3 +109,37 @@ def test_a_lone_point_is_no_locus() -> None:
         gr.conveying.YieldLocus([1e3], [1e3], 2e3, 1.5e3)
     with pytest.raises(GranumError):
         gr.conveying.YieldLocus([1e3, 1e3, 1e3], [1e3, 1.1e3, 0.9e3], 2e3, 1.5e3).fit()
+
+
+def test_strength_as_a_power_of_a_tutorial() -> None:
+    """scribd.com 380917158, question 1, read: σ_y = σ_c^0.68 in kPa and a flow factor of 1.4 meet at 2.043
+    kPa: a cone of 0.299 m with H = 2 + θ/60, a slot with H = 1 + θ/180, whose 1.1944·2043/(1800·9.81) m are
+    printed as 0.2249.
+    """
+    met = float(gr.conveying.critical_strength(0.0, 1.0, 1.4, 0.68))
+    assert met == pytest.approx(2043.0, rel=1e-3)
+    assert float(gr.conveying.unconfined_strength(1.4 * met, 0.0, 1.0, 0.68)) == pytest.approx(met, rel=1e-9)
+    at = 35.0 * np.pi / 180.0
+    assert float(gr.conveying.outlet_width_jenike(met, 1800.0, at)) == pytest.approx(0.299, rel=0.02)
+    slot = 1.1944 * 2043.0 / (1800.0 * 9.81)
+    assert float(gr.conveying.outlet_width_jenike(met, 1800.0, at, "wedge")) == pytest.approx(slot, rel=0.02)
+
+
+def test_powers_against_a_bisection_and_the_line_as_their_end() -> None:
+    """Intercept, slope, flow factor and exponent at random; where the exponent nears one the line."""
+    rng = np.random.default_rng(3)
+    for _ in range(200):
+        a, b, ff, n = rng.uniform((0, 0.05, 1.05, 0.2), (3000, 1.2, 2.5, 0.95))
+        low, high = 0.0, 1e10
+        for _step in range(200):
+            s = 0.5 * (low + high)
+            low, high = (s, high) if a + 1e3 * b * (ff * s / 1e3) ** n > s else (low, s)
+        if low < 1e7:
+            assert float(gr.conveying.critical_strength(a, b, ff, n)) == pytest.approx(low, rel=1e-9)
+    line = float(gr.conveying.critical_strength(560.0, 0.17, 1.8))
+    assert float(gr.conveying.critical_strength(560.0, 0.17, 1.8, 1.0 - 1e-9)) == pytest.approx(
+        line, rel=1e-6
+    )
+    assert float(gr.conveying.critical_strength(560.0, 0.0, 1.8, 0.5)) == pytest.approx(560.0, rel=1e-6)
+    with pytest.raises(GranumError, match="no outlet is wide enough"):
+        gr.conveying.critical_strength(500.0, 2.0, 2.0, 0.97)

@@ -95,3 +95,25 @@ def test_an_empty_drum_dries_less_than_its_volume_would() -> None:
     assert made.figures.residence_time == pytest.approx(other.figures.residence_time)
     assert made.figures.moisture_dry_basis > 2.0 * other.figures.moisture_dry_basis
     assert jnp.isfinite(made.figures.moisture_dry_basis)
+
+
+@pytest.mark.parametrize("passes", [2, 3])
+@pytest.mark.parametrize("direction", ["co-current", "counter-current"])
+def test_a_drum_of_several_passes_is_the_drum_unrolled(passes: int, direction) -> None:
+    """Tubes of equal sections one in another: the same gas velocity and way, more steel to turn; water and
+    heat close.
+    """
+    feed, gas = load(1.0)
+    folded = RotaryDryer(3.0, 1.5, SLOW, 0.03, 0.4, direction, cells=15, passes=passes)
+    straight = RotaryDryer(3.0 * passes, 1.5 / passes**0.5, SLOW, 0.03, 0.4, direction, cells=15)
+    one, other = (unit.operate(feed=feed, gas=gas) for unit in (folded, straight))
+    for name in ("moisture_dry_basis", "residence_time", "temperature_exhaust", "solid_holdup"):
+        assert float(getattr(one.figures, name)) == pytest.approx(
+            float(getattr(other.figures, name)), rel=1e-9
+        )
+    lost = closure([feed, gas], [one.outlets.product, one.outlets.exhaust], one.outlets.heat_duty)
+    assert float(lost.mass) < 1e-12
+    assert float(lost.energy) < 1e-9
+    short = RotaryDryer(3.0, 1.5, SLOW, 0.03, 0.4, direction, cells=15).operate(feed=feed, gas=gas)
+    assert float(one.figures.moisture_dry_basis) < float(short.figures.moisture_dry_basis)
+    assert float(one.uses["electric_power_drive"]) > float(other.uses["electric_power_drive"])

@@ -225,6 +225,16 @@ def test_a_silo_refuses_steam_in_words() -> None:
         line.solve()
 
 
+def test_a_tray_oven_names_the_dryers_that_take_steam() -> None:
+    """It had spoken of hotter air, and those that it names do dry in it."""
+    with pytest.raises(ConvergenceError, match="take a tunnel dryer"):
+        gr.alone("drying.tray_dryer", gas=PURE | {"temperature": "180 degC"}).solve()
+    for dryer in ("tunnel_dryer", "belt_dryer"):
+        run = gr.alone(f"drying.{dryer}", gas=PURE | {"temperature": "180 degC"}).solve()
+        assert run.figure(f"{dryer}.evaporation_rate") > 0.0
+        assert run.figure(f"{dryer}.superheat") > 5.0
+
+
 def test_figures_of_a_dryer_in_steam() -> None:
     """All of them numbers: the superheat is what the exhaust has above boiling."""
     gas = PURE | {"temperature": "200 degC", "gas_flow": "14 t/h"}

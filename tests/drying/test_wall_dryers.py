@@ -262,6 +262,38 @@ def test_drum_is_turned_under_its_knife():
     assert web.figure("drum.moisture_dry_basis") == run.figure("drum.moisture_dry_basis")
 
 
+def test_drums_under_vacuum_boil_at_its_pressure():
+    """By hand from steam tables: 10 kPa boil at 45.81 °C with 2392.1 kJ/kg, steam of 5 bar is at 151.84 °C.
+    The air that leaks in is that of the chart of the Heat Exchange Institute, 0.713 kg/h times the volume in
+    m³ to the power of two thirds at 10 kPa, drawn off at 25 °C by a pump of half the isothermal work.
+    """
+    line = gr.read(FOLDER / "drum.toml")
+    plain, housed = line.solve(), line.with_values(**{"drum.pressure": 1e4}).solve()
+    assert housed.figure("drum.boiling_temperature") - 273.15 == pytest.approx(45.81, abs=0.02)
+    assert housed.figure("drum.drying_flux") == pytest.approx(780 * (151.84 - 45.81) / 2392.1e3, rel=2e-3)
+    assert float(housed.streams["vapor"].pressure) == 1e4
+    assert housed.audit["energy_closure"] < 1e-9
+    volume = 3.0 * np.pi / 4.0 * 1.93
+    drawn = 0.713 / 3600.0 * volume ** (2 / 3) / 0.02896 * 8.314 * 298.15 / 1e4
+    taken = drawn * 1e4 * np.log(10.1325) / 0.5 / 0.9
+    assert float(housed.units["drum"].uses["electric_power_vacuum"]) == pytest.approx(taken, rel=2e-3)
+    assert float(plain.units["drum"].uses["electric_power_vacuum"]) == 0.0
+
+
+def test_two_drums_are_one_twice_as_wide():
+    line = gr.read(FOLDER / "drum.toml")
+    wide = line.with_values(**{"drum.width": 2.0}).solve()
+    text = (FOLDER / "drum.toml").read_text(encoding="utf-8")
+    text = text.replace('width = "1.93 m"', 'width = "1 m"\ncylinder_count = 2')
+    twin = gr.cases.read_text(text).solve()
+    for name in ("moisture_dry_basis", "evaporation_rate", "area", "dry_mass_per_area", "shaft_power"):
+        assert twin.figure(f"drum.{name}") == pytest.approx(wide.figure(f"drum.{name}"), rel=1e-12)
+    unit = line.sheet.units["drum"]
+    sized = type(unit).size(0.06, line.sheet.feeds["mash"], 1.0, 0.356, 5e5, cylinder_count=2)
+    one = type(unit).size(0.06, line.sheet.feeds["mash"], 1.0, 0.356, 5e5)
+    assert float(one.width) == pytest.approx(2.0 * float(sized.width))
+
+
 def test_drum_sized_and_run_meet():
     line = gr.read(FOLDER / "drum.toml")
     unit, feed = line.sheet.units["drum"], line.sheet.feeds["mash"]

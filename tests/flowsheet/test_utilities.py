@@ -234,3 +234,13 @@ def test_rounding_is_no_heat_and_what_is_not_taken_is_in_no_table() -> None:
     assert not any(name.startswith("heat_input") for name in taken)
     little = Flowsheet({"f": Fan(1.0)}, {"air": air(1e-6)}, {"air": ("", "f.feed")}).solve()
     assert little.figure("f.shaft_power") == pytest.approx(1e-6 / 1.18 / 0.65, rel=0.01)
+
+
+def test_air_leaks_in_by_the_chart_of_the_institute() -> None:
+    """scribd.com 482975963, read: k of 0.947, 0.713, 0.403, 0.248 and 0.124 kg/h per m³ to the power 2/3
+    above 90, 20, 3 and 1 torr and below; nothing without a vacuum.
+    """
+    for torr, k in ((100.0, 0.947), (50.0, 0.713), (10.0, 0.403), (2.0, 0.248), (0.5, 0.124)):
+        leaked = gr.streams.mass_flow_leakage_hei(27.0, 133.322368 * torr)
+        assert float(leaked) * 3600.0 == pytest.approx(9.0 * k, rel=1e-9)
+    assert float(gr.streams.mass_flow_leakage_hei(27.0, 101325.0)) == 0.0

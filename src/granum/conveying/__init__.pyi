@@ -33,6 +33,7 @@ from granum.conveying.formulas.hoppers import (
     mass_flow_beverloo as mass_flow_beverloo,
     outlet_width_jenike as outlet_width_jenike,
     silo_stresses_janssen as silo_stresses_janssen,
+    unconfined_strength as unconfined_strength,
 )
 from granum.conveying.formulas.non_newtonian import (
     friction_factor_darby_melson as friction_factor_darby_melson,

@@ -277,6 +277,7 @@ from granum.drying.formulas.moisture import (
     moisture_dry_basis as moisture_dry_basis,
     moisture_dry_basis_from_mass as moisture_dry_basis_from_mass,
     moisture_wet_basis as moisture_wet_basis,
+    sticking_share_particle_gun as sticking_share_particle_gun,
     water_activity as water_activity,
 )
 from granum.drying.formulas.moisture_ratios import (
@@ -398,6 +399,10 @@ from granum.drying.gas_solid.mixed import (
     Lived as Lived,
     Solid as Solid,
     Spread as Spread,
+)
+from granum.drying.isotherm_charts import (
+    isotherms_chart as isotherms_chart,
+    stability_chart as stability_chart,
 )
 from granum.drying.isotherms.adsorption import (
     Bet as Bet,

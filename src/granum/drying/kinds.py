@@ -53,3 +53,4 @@ PerLength = Annotated[Any, Kind("per length", "1/m", 0.0, display=("1/cm", "1/m"
 VaporPermeability = Annotated[
     Any, Kind("permeability to vapor", "kg/(m*s*Pa)", 0.0, open_lower=True, display=("kg/(m*s*Pa)",))
 ]
+PerTemperature = Annotated[Any, Kind("per temperature difference", "1/K", 0.0, display=("%/K", "1/K"))]

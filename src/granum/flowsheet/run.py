@@ -25,6 +25,7 @@ from granum.core.results import plain, quantity_json
 from granum.core.utilities import carrier
 from granum.costs.formulas.emissions import CARRIERS
 from granum.estimation.results import Fit
+from granum.flowsheet.cleaning import cleaning_chart, trains
 from granum.flowsheet.drawing import draw
 from granum.flowsheet.dynamics import Course, Profile, march
 from granum.flowsheet.findings import Findings, fault_in_time
@@ -334,6 +335,11 @@ class Run:
         where each size goes if it parts sizes.
         """
         found: dict[str, Any] = {}
+        named = {link.origin: link.name for link in self.sheet.links}
+        for train in trains(self.sheet):
+            caught = cleaning_chart(self.sheet, self.streams, train)
+            if caught is not None:
+                found[f"{', '.join(train)} · {_('What the collectors catch together')}"] = caught
         for name, unit in self.sheet.units.items():
             inlets = self._inlets(name)
             if type(unit).charts is not Unit.charts:
@@ -341,7 +347,7 @@ class Run:
                     made = unit.operate(**inlets)
                 drawn = unit.charts(made, inlets)
                 found |= {f"{name} · {heading}": figure for heading, figure in drawn.items()}
-            ports = {port: f"{name}.{port}" for port in type(unit).outlet_names()}
+            ports = {port: named.get(f"{name}.{port}", "") for port in type(unit).outlet_names()}
             leaving = {port: self.streams[there] for port, there in ports.items() if there in self.streams}
             parted = drawn_shares(inlets, leaving)
             if parted is not None:

@@ -66,6 +66,7 @@ from granum.streams.feeding import (
     feed as feed,
 )
 from granum.streams.formulas.drives import (
+    mass_flow_leakage_hei as mass_flow_leakage_hei,
     rotation_speed_zwietering as rotation_speed_zwietering,
     shaft_power_adiabatic as shaft_power_adiabatic,
     shaft_power_agitator as shaft_power_agitator,

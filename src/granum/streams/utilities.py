@@ -11,9 +11,10 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
 from granum.core.utilities import Utility
 from granum.streams.formulas.drives import (
+    mass_flow_leakage_hei,
     shaft_power_adiabatic,
     shaft_power_incompressible,
     shaft_power_isothermal,
@@ -26,6 +27,7 @@ HEURISTICS = "turton2018, ch. 11"
 MOTOR, PUMP, FAN, VACUUM, COMPRESSOR = 0.9, 0.7, 0.65, 0.5, 0.75
 AMBIENT = 298.15  # K, above which gas counts as heated
 AIR_VISCOSITY = 1.8e-5  # Pa s
+AIR_MOLAR_MASS = 0.028966  # kg/mol
 # K: saturated steam at 6, 11 and 42 bar, and what cools; ten or five kelvin apart from the process
 STEAM = {"low_pressure_steam": 432.0, "medium_pressure_steam": 457.0, "high_pressure_steam": 526.0}
 COLD = {"cooling_water": 303.15, "chilled_water": 278.15, "brine": 253.15, "deep_cold": 223.15}
@@ -43,6 +45,11 @@ HEATED: Utilities = {
 }
 COOLED: Utilities = {f"cooling_input_{name}": Utility("turton2018, ch. 8") for name in COLD}
 HOT_GAS: Utilities = {"heat_input_hot_gas": Utility("keey1978", inlet="gas")}
+VACUUM_KEPT: Utilities = {
+    "electric_power_vacuum": Utility(
+        "hei2000, the air that leaks in only: that no vapor comes with it is our own estimate"
+    )
+}
 AREA: Utilities = {"area_installed": Utility(HEURISTICS)}
 
 
@@ -68,6 +75,15 @@ def evacuated(volume_flow: Any, pressure: Any) -> Any:
     """
     inlet = jnp.clip(pressure, 1.0, STANDARD_ATMOSPHERE)
     return driven(shaft_power_isothermal(volume_flow, inlet, STANDARD_ATMOSPHERE, VACUUM))
+
+
+def kept_empty(volume: Any, pressure: Any) -> Any:
+    """Electric power of a pump that keeps a vacuum in a plant of a volume against the air that leaks in, W;
+    the vapor that comes with that air is left out.
+    """
+    air = mass_flow_leakage_hei.function(volume, pressure) / AIR_MOLAR_MASS
+    drawn = air * GAS_CONSTANT * AMBIENT / jnp.maximum(pressure, 1.0)
+    return evacuated(drawn, pressure)
 
 
 def compressed(volume_flow: Any, pressure: Any) -> Any:

@@ -11,14 +11,17 @@ from granum.conveying.formulas.hoppers import (
     DEGREE,
     NO_FLOW,
     Friction,
+    Power,
     Strength,
     Wall,
+    arch_exists,
     critical_strength,
     flow_factor_hopper,
     half_angle_mass_flow_cone,
     mass_flow_beverloo,
     outlet_width_jenike,
     silo_stresses_janssen,
+    unconfined_strength,
 )
 from granum.conveying.formulas.outlets import (
     mass_flow_johanson,
@@ -94,7 +97,8 @@ class Hopper(Unit):
     """A cylinder with a cone below, filled as fast as it empties, with checks whether the solid flows.
 
     Friction angles and the line of strength come from a shear cell (``flow_function``, ``yield_locus``), at
-    the moisture and after the time of storage that are to be; without strength the solid flows freely. A cone
+    the moisture and after the time of storage that are to be; a flow function that is a power of the stress
+    in kPa has its factor as slope and ``strength_exponent``. Without strength the solid flows freely. A cone
     up to the half angle of mass flow moves as a whole: its outlet must be wider than Jenike's arch, and lets
     out the lesser of Johanson's rate and Carleton's. Beyond that angle a funnel flows: the outlet must be
     wider than the rathole under the stress of filling, and lets out the lesser of Beverloo's rate and
@@ -112,6 +116,7 @@ class Hopper(Unit):
     strength_slope: Ratio = 0.0
     internal_friction_angle: Friction | None = None
     stress_ratio: Annotated[PositiveNumber, Within(0.01, 5.0)] = 0.4
+    strength_exponent: Power = 1.0
 
     limits: ClassVar[Limits] = {
         "flows": Limit(
@@ -167,9 +172,10 @@ class Hopper(Unit):
             self.effective_friction_angle, jnp.where(mass, self.wall_friction_angle, ANGLE[0]), held
         )
         slope = jnp.where(mass, self.strength_slope, 0.0)
-        unsolved(slope * factor < 1.0, type(self).card, reason=NO_FLOW)
+        power = self.strength_exponent
+        unsolved(arch_exists(slope, factor, power), type(self).card, reason=NO_FLOW)
         arch = outlet_width_jenike.function(
-            critical_strength.function(self.strength_intercept, slope, factor), rho, held
+            critical_strength.function(self.strength_intercept, slope, factor, power), rho, held
         )
         filled = silo_stresses_janssen.function(
             self.height, self.diameter, rho, self.wall_friction_angle, self.stress_ratio
@@ -179,14 +185,17 @@ class Hopper(Unit):
             if self.internal_friction_angle is None
             else self.internal_friction_angle
         )
-        strength = self.strength_intercept + self.strength_slope * filled.stress_vertical
+        strength = unconfined_strength.function(
+            filled.stress_vertical, self.strength_intercept, self.strength_slope, power
+        )
         hole = rathole_diameter_jenike.function(strength, rho, friction)
         least = jnp.where(mass, arch, hole)
         stress = (
             rho * STANDARD_GRAVITY * width / outlet_width_jenike.function(rho * STANDARD_GRAVITY, rho, held)
         )
         major = factor * stress
-        flowability = major / jnp.maximum(self.strength_intercept + slope * major, WEAK)
+        held_together = unconfined_strength.function(major, self.strength_intercept, slope, power)
+        flowability = major / jnp.maximum(held_together, WEAK)
         d = solid_diameter(feed)
         open_enough = width > EMPTY * d
         funnel = mass_flow_beverloo.function(rho, jnp.where(open_enough, width, 2.0 * EMPTY * d), d)

@@ -112,7 +112,9 @@ class PneumaticConveyor(Unit):
     count with their mass median size; gas and solid leave at the temperature of their mixture, and moisture
     neither dries nor condenses on the way. Where the solid enters, the gas speeds up without loss and then
     gives the solid its momentum. Friction of the solid is that of Konno and Saito; Hinkle's, for coarse
-    grains in level pipes, is several times as much.
+    grains in level pipes, is several times as much. ``particle_friction_factor``, as measured or from a
+    table, takes the place of both in all straight pipe: 2 f_p G v_p/D per length with Hinkle's velocity of
+    the particles. The factor λ of books that write λ μ ρ U²/(2D) is 4 f_p v_p/U.
     """
 
     diameter: Length
@@ -125,6 +127,7 @@ class PneumaticConveyor(Unit):
     saltation: Literal["rizk", "matsumoto", "schade", "weber"] = "rizk"
     level_friction: Literal["konno_saito", "hinkle"] = "konno_saito"
     drag: Annotated[Any, Law("drag_coefficient")] = drag_coefficient_brown_lawler
+    particle_friction_factor: Ratio | None = None
 
     limits: ClassVar[Limits] = {
         "saltation": Limit(
@@ -161,10 +164,13 @@ class PneumaticConveyor(Unit):
         def gradient(pressure: Any) -> Any:
             expanded = mixed.pressure / pressure
             rho, u = density / expanded, velocity * expanded
-            rubbed = pressure_gradient_solid_konno_saito.function(flux, self.diameter)
+            v, given = lag * u, self.particle_friction_factor
+            if given is None:
+                rubbed = pressure_gradient_solid_konno_saito.function(flux, self.diameter)
+            else:
+                rubbed = pressure_gradient_solid_hinkle.function(flux, v, self.diameter, given)
             level = rubbed
-            if self.level_friction == "hinkle":
-                v = lag * u
+            if given is None and self.level_friction == "hinkle":
                 reynolds = jnp.maximum(rho * (u - v) * size / viscosity, 1e-9)
                 factor = particle_friction_factor_hinkle.function(
                     u, v, size, heavy, rho, self.diameter, self.drag(reynolds)

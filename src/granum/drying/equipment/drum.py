@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -28,6 +28,7 @@ from granum.core.kinds import (
     Temperature,
     Time,
     TurningSpeed,
+    Within,
 )
 from granum.core.limits import Limit
 from granum.core.units import format_number
@@ -41,7 +42,18 @@ from granum.settling.kinds import LineLoad
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
-from granum.streams.utilities import AREA, DRIVE, HEAT_APPROACH, HEATED, driven, heated
+from granum.streams.utilities import (
+    AREA,
+    DRIVE,
+    HEAT_APPROACH,
+    HEATED,
+    VACUUM_KEPT,
+    driven,
+    heated,
+    kept_empty,
+)
+
+HOUSED = 3.0  # times their own volume, the housing of cylinders under vacuum
 
 
 class ContactDried(NamedTuple):
@@ -83,7 +95,10 @@ class DrumDryer(Unit):
     ``blade_load`` and ``friction_coefficient`` are those of knives that lift a sheet (the latter 0 where a
     web leaves by itself); ``drive_power_per_area`` is what rolls that feed, bearings and discharge take
     besides, some third of the motors that makers install on such drums (from memory 1.2 to 2 kW/m²; our own
-    estimate).
+    estimate). Several cylinders (``cylinder_count``, two of a twin or double drum) share the feed and are
+    alike. A ``pressure`` below the atmosphere's is that of a housing under vacuum, three times as large as
+    the cylinders (our own estimate): the film boils colder, the vapor leaves at that pressure for a condenser
+    of the line, and a pump draws off the air that leaks in.
     """
 
     diameter: Length
@@ -99,6 +114,8 @@ class DrumDryer(Unit):
     blade_load: LineLoad = 2000.0
     friction_coefficient: Ratio = 0.2
     drive_power_per_area: PowerPerArea = 500.0
+    cylinder_count: Annotated[int, Within(1, 20)] = 1
+    pressure: Annotated[Pressure, Within(500.0, 1.1e5)] = STANDARD_ATMOSPHERE
 
     limits: ClassVar[Limits] = {
         "capacity": Limit(
@@ -110,15 +127,15 @@ class DrumDryer(Unit):
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     }
 
-    utilities: ClassVar[Utilities] = HEATED | AREA | DRIVE
+    utilities: ClassVar[Utilities] = HEATED | AREA | DRIVE | VACUUM_KEPT
 
     def inside(self, feed: Stream) -> dict[str, Any]:
         """What happens to the film on its way."""
         humid = HumidMixture(feed.mixture, alone=True)
-        boiling = humid.boiling_temperature(jnp.asarray(STANDARD_ATMOSPHERE) + 0.0 * feed.pressure)
+        boiling = humid.boiling_temperature(jnp.asarray(self.pressure) + 0.0 * feed.pressure)
         wall = water_boiling_temperature(self.pressure_steam)
         latent = humid.heat_of_vaporization(boiling)
-        area = jnp.pi * self.diameter * self.width
+        area = self.cylinder_count * jnp.pi * self.diameter * self.width
         turn = 2.0 * jnp.pi / self.rotation_speed
         load = feed.solid_flow * turn / area
         contact = self.wrapped_fraction * turn
@@ -163,7 +180,7 @@ class DrumDryer(Unit):
         pressure_steam: Any,
         **more: Any,
     ) -> DrumDryer:
-        """The width of a drum of given diameter that a product moisture needs: warming, constant and falling
+        """The width of drums of given diameter that a product moisture needs: warming, constant and falling
         rate, each in closed form.
         """
         first = cls(diameter, 1.0, rotation_speed, pressure_steam, **more)
@@ -195,11 +212,12 @@ class DrumDryer(Unit):
         # time on the drum is turn · wrapped fraction; warming and drying both take turn/area times a number
         per_area = film["heating"] * film["area"] / film["turn"] + feed.solid_flow * ways / film["N"]
         area = per_area / first.wrapped_fraction
-        return cls(diameter, float(area / (jnp.pi * first.diameter)), rotation_speed, pressure_steam, **more)
+        around = first.cylinder_count * jnp.pi * first.diameter
+        return cls(diameter, float(area / around), rotation_speed, pressure_steam, **more)
 
     def outlets(self, inside: dict[str, Any], feed: Stream) -> ContactDried:
         film = inside
-        product, vapor = boiled(feed, film["X2"], film["T2"], film["boiling"], STANDARD_ATMOSPHERE)
+        product, vapor = boiled(feed, film["X2"], film["T2"], film["boiling"], self.pressure)
         return ContactDried(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: dict[str, Any], outlets: ContactDried, feed: Stream) -> DrumFigures:
@@ -220,7 +238,8 @@ class DrumDryer(Unit):
             mass_flow_steam=steam,
             steam_per_water=safe_divide(steam, water),
             energy_per_water=safe_divide(duty, water),
-            shaft_power=shaft_power_scraper.function(
+            shaft_power=self.cylinder_count
+            * shaft_power_scraper.function(
                 self.diameter,
                 self.width,
                 self.rotation_speed,
@@ -247,7 +266,9 @@ class DrumDryer(Unit):
         self, inside: dict[str, Any], outlets: ContactDried, figures: DrumFigures, feed: Stream
     ) -> dict[str, Any]:
         steam = outlets.heat_duty / (1.0 - self.heat_loss_share)
+        housing = HOUSED * 0.25 * figures.area * self.diameter
         return heated(steam, figures.wall_temperature - HEAT_APPROACH) | {
             "electric_power_drive": driven(figures.shaft_power) + self.drive_power_per_area * figures.area,
+            "electric_power_vacuum": kept_empty(housing, self.pressure),
             "area_installed": figures.area,
         }

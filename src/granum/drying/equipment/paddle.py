@@ -52,8 +52,9 @@ from granum.numerics import Root, find_root, safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Unit, Utilities
-from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, driven, heated
+from granum.streams.utilities import AREA, HEAT_APPROACH, HEATED, VACUUM_KEPT, driven, heated, kept_empty
 
+HOUSED = 2.0  # times the volume of the bed, that of the dryer (our own estimate)
 STEPS, PASTY_STEPS = 40, 10
 FRICTION = 0.6  # inside the bed, of a repose of 31°
 TURNED = "vdi2010, ch. Mc, the bed only: that all of it rubs at the speed of the paddles is our own estimate"
@@ -123,8 +124,9 @@ class PaddleDryer(Unit):
     Heat passes the wall's gap, then penetrates the resting bed behind a drying front until it is mixed again
     (Schlünder and Mollekopf). What does not evaporate warms the bed. Continuous dryers are taken in plug
     flow, which the paddles of one shaft nearly give; a batch is the same curve in time. Under vacuum the
-    pressure sets the boiling temperature. Properties are those of the dry bed; non-hygroscopic product.
-    ``dry_mass_per_area`` is the hold-up per heated area. Mixing numbers are those of paddles unless given.
+    pressure sets the boiling temperature, and a pump draws off the air that leaks in. Properties are those of
+    the dry bed; non-hygroscopic product. ``dry_mass_per_area`` is the hold-up per heated area. Mixing numbers
+    are those of paddles unless given.
 
     A sludge is a paste above ``pasty_moisture``: it wets the wall, so that no gap resists, and boils as heat
     penetrates it between two mixings; its coefficient follows from the effusivity of solid and water unless
@@ -158,7 +160,7 @@ class PaddleDryer(Unit):
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     } | AS_SPECIFIED
 
-    utilities: ClassVar[Utilities] = HEATED | AREA | {"electric_power_drive": Utility(TURNED)}
+    utilities: ClassVar[Utilities] = HEATED | AREA | VACUUM_KEPT | {"electric_power_drive": Utility(TURNED)}
 
     @classmethod
     def rate(cls, area: Any, feed: Stream, **parameters: Any) -> PaddleDryer:
@@ -350,6 +352,7 @@ class PaddleDryer(Unit):
         turning = FRICTION * wet * STANDARD_GRAVITY * self.rotation_speed * 0.5 * self.diameter
         return heated(outlets.heat_duty, self.wall_temperature - HEAT_APPROACH) | {
             "electric_power_drive": driven(turning),
+            "electric_power_vacuum": kept_empty(HOUSED * wet / self.bulk_density, self.pressure),
             "area_installed": inside.area,
         }
 

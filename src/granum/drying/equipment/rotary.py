@@ -64,6 +64,10 @@ class RotaryDryer(CellDryer):
     fines that the flights shower once through the gas, evenly along the drum: what falls slower than the gas
     flows, and has not settled before the gas leaves. A measured ``dusting_fraction`` of the feed, the finest
     of it, takes the place of this estimate; ammonium sulfate dryers lose 2 to 3 % (AP-42, recalled).
+
+    A drum with ``passes`` is two or three tubes in one another, of equal sections, through which solid and
+    gas go one after the other: it is reckoned as the drum unrolled, narrower and longer. Such drums lie
+    level; ``drum_slope`` is then what the pitch of their flights is worth. A heated wall is the outer one.
     """
 
     length: Length
@@ -86,6 +90,7 @@ class RotaryDryer(CellDryer):
     cells: Annotated[int, Within(1, 2000)] = 40
     entrainment: bool = False
     dusting_fraction: Fraction | None = None
+    passes: Annotated[int, Within(1, 3)] = 1
 
     limits: ClassVar[Limits] = CellDryer.limits | {
         "filled": Limit("share of the drum filled with solid", 0.03, 0.15, "dimensionless", "friedman1949"),
@@ -115,19 +120,29 @@ class RotaryDryer(CellDryer):
     )
 
     def extent(self) -> Any:
-        return self.length * self.section
+        return self.way * self.section
+
+    @property
+    def bore(self) -> Any:
+        """Diameter of a tube with the section of one pass."""
+        return self.diameter / self.passes**0.5
+
+    @property
+    def way(self) -> Any:
+        """Length of all passes."""
+        return self.length * self.passes
 
     @property
     def section(self) -> Any:
-        """Cross-section of the drum."""
-        return 0.25 * pi * self.diameter**2
+        """Cross-section of one pass."""
+        return 0.25 * pi * self.bore**2
 
     def entrained(self, product: Stream, exhaust: Stream) -> Any:
         if not self.entrainment:
             return None
         if self.dusting_fraction is not None:
             return finest(product, self.dusting_fraction)
-        floor = self.diameter * self.length
+        floor = self.bore * self.way
         return showered(fall(product, exhaust), exhaust, floor, self.section)
 
     def passage(self, feed: Stream, gas: Stream) -> Any:
@@ -135,8 +150,8 @@ class RotaryDryer(CellDryer):
         against = 1.0 if self.gas_direction == "counter-current" else -1.0
         blowing = jnp.where(feed.solid_flow > LEAST, gas.gas_flow, 0.0)  # on some solid
         return residence_time_friedman_marshall.function(
-            self.length,
-            self.diameter,
+            self.way,
+            self.bore,
             self.drum_slope,
             self.rotation_speed,
             solid_diameter(feed),
@@ -154,9 +169,9 @@ class RotaryDryer(CellDryer):
         """Filling from which on more solid brings no more exchange."""
         if self.flight_count is None:
             return THINNEST
-        depth = 0.1 * self.diameter if self.flight_depth is None else self.flight_depth
-        angle = flight_repose_angle.function(self.repose_friction, self.diameter, self.rotation_speed)
-        return flight_filling_design.function(self.diameter, self.flight_count, depth, self.flight_lip, angle)
+        depth = 0.1 * self.bore if self.flight_depth is None else self.flight_depth
+        angle = flight_repose_angle.function(self.repose_friction, self.bore, self.rotation_speed)
+        return flight_filling_design.function(self.bore, self.flight_count, depth, self.flight_lip, angle)
 
     def contact(self, feed: Stream, gas: Stream) -> Contact:
         n, F = self.cells, feed.solid_by_size
@@ -166,7 +181,7 @@ class RotaryDryer(CellDryer):
 
         def by_volume(flux: Any) -> Any:
             return volumetric_heat_transfer_rotary.function(
-                flux, self.diameter, self.transfer_constant, self.transfer_exponent
+                flux, self.bore, self.transfer_constant, self.transfer_exponent
             )
 
         Ua = in_steam(by_volume, gas.gas_flow / self.section, gas)
@@ -211,13 +226,14 @@ class RotaryDryer(CellDryer):
     ) -> dict[str, Any]:
         filled = self.filled(figures.solid_holdup, feed)
         loaded = {} if self.flight_count is None else {"loaded": filled / self.design_filling}
+        if self.passes == 1:
+            loaded["slender"] = jnp.asarray(self.length / self.diameter)
         return (
             super().measured(inside, outlets, figures, feed, gas)
             | loaded
             | {
                 "filled": filled,
                 "flux": gas.gas_flow / self.section,
-                "slender": jnp.asarray(self.length / self.diameter),
                 "inlet": self.temperature_drying(figures, gas),
                 "capacity": self.hourly(figures),
             }
@@ -227,7 +243,8 @@ class RotaryDryer(CellDryer):
         self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
     ) -> dict[str, Any]:
         load = inside.holdup * (1.0 + feed.moisture_dry_basis)
-        shell = pi * self.diameter * self.length * SHELL * self.diameter * STEEL
+        tubes = [self.bore * (k + 1) ** 0.5 for k in range(self.passes)]
+        shell = sum(pi * tube**2 * self.length * SHELL * STEEL for tube in tubes)
         turning = shaft_power_rotary_drum(self.rotation_speed, self.diameter, load, shell + load)
         wall = jnp.maximum(outlets.heat_duty + self.heat_loss, 0.0)
         return (

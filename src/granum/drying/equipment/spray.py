@@ -20,11 +20,13 @@ from granum.core.kinds import (
     Ratio,
     SurfaceTension,
     Temperature,
+    TemperatureDifference,
     Within,
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
 from granum.drying.equipment.atomizers import Liquor
+from granum.drying.formulas.moisture import glass_transition_temperature, sticking_share_particle_gun
 from granum.drying.gas_solid.airborne import dried_on
 from granum.drying.gas_solid.cells import Inlet, Network
 from granum.drying.gas_solid.conveyed import Path, convey, drop_ratio, liquid_density
@@ -32,7 +34,7 @@ from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Thr
 from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted, moistened
 from granum.drying.gas_solid.matter import Matter
-from granum.drying.kinds import LostHeat
+from granum.drying.kinds import LostHeat, PerTemperature
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import VENTED
 from granum.streams.equilibrium import HumidMixture
@@ -60,7 +62,9 @@ class SprayDryer(Dryer):
     falls, dry, slower than it enters; that dries in the exhaust, down to equilibrium with it, and the rest
     falls through ever hotter gas.
     Fines that come back at the port ``fines`` all stick to drops at the atomizer, in proportion to these: the
-    agglomerates are larger and start less wet. An ``explosion_vent`` is that of the chamber.
+    agglomerates are larger and start less wet. An ``explosion_vent`` is that of the chamber. With the glass
+    transition of the dry solid a check tells how much of the powder would stay where it meets a wall; how
+    much of it meets one is left out, and so is what it leaves there.
     """
 
     length: Length
@@ -78,6 +82,10 @@ class SprayDryer(Dryer):
     entrainment: bool = False
     gas_direction: Literal["co-current", "counter-current"] = "co-current"
     explosion_vent: Annotated[Any, Law("explosion_vent")] = None
+    glass_transition_temperature_dry: Temperature | None = None
+    gordon_taylor_constant: PositiveNumber = 6.7
+    sticking_margin: TemperatureDifference = 33.6
+    sticking_slope: PerTemperature = 0.031
 
     dust_dries_on = False  # it has flown with the gas all along
 
@@ -96,6 +104,13 @@ class SprayDryer(Dryer):
                 0.1,
                 "dimensionless",
                 "our own estimate, twice the 45 kg a tonne of ap42_1995, ch. 6.8 (recalled)",
+            ),
+            "sticks": Limit(
+                "share of what meets a wall that stays on it",
+                0.0,
+                0.1,
+                "dimensionless",
+                "murti2009, that some is swept off is our own estimate",
             ),
             "slender": Limit("height over diameter of the chamber", 0.6, 5.0, "dimensionless", "masters1991"),
         }
@@ -235,6 +250,7 @@ class SprayDryer(Dryer):
         return (
             super().measured(inside, outlets, figures, whole, gas)
             | flown
+            | self._sticking(inside)
             | {
                 "inlet": gas.temperature,
                 "outlet": outlets.exhaust.temperature,
@@ -243,6 +259,19 @@ class SprayDryer(Dryer):
                 "slender": jnp.asarray(self.length / self.diameter),
             }
         )
+
+    def _sticking(self, inside: Through) -> dict[str, Any]:
+        """How much of the classes, as they end their fall, stays on a wall that they meet."""
+        dry = self.glass_transition_temperature_dry
+        if dry is None:
+            return {}
+        end = inside.profile
+        there = jnp.where(end.leaves[:, None], end.shares, 0.0)
+        glass = glass_transition_temperature.function(end.moisture, dry, self.gordon_taylor_constant)
+        stays = sticking_share_particle_gun.function(
+            end.temperature, glass, self.sticking_margin, self.sticking_slope
+        )
+        return {"sticks": safe_divide(jnp.sum(there * stays), jnp.sum(there))}
 
     def drawn(
         self,

@@ -46,6 +46,7 @@ from granum.drying.gas_solid.column import Zone, mean_moisture, pass_zones
 from granum.drying.gas_solid.dryer import ready
 from granum.drying.gas_solid.kinetics import VanMeelKinetics
 from granum.drying.gas_solid.matter import Matter
+from granum.drying.gas_solid.steam import is_steam
 from granum.drying.wet_surface import AS_SPECIFIED, as_specified, boiled, dried_share, leaving
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
@@ -58,6 +59,10 @@ from granum.streams.utilities import AREA, HEATED, HOT_GAS, fanned, heated, warm
 TRAY_HEADS = 10.0
 FOLLOWED = (20, 60)  # cells along the air and steps of the load that is drawn
 HEADS = "treybal1980, ch. 12, the speed only: ten velocity heads over the trays are our own estimate"
+NO_STEAM = (
+    "A tray oven is reckoned with air: for trays in superheated steam take a tunnel dryer, whose trays stay "
+    "as long, or a belt."
+)
 _UNSOLVED = (
     "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation "
     "agree: give hotter air, or less radiated heat."
@@ -177,6 +182,7 @@ class TrayDryer(Unit):
     def inside(self, feed: Stream, gas: Stream) -> dict[str, Any]:
         """Air, flux and time."""
         T, humid = jnp.asarray(self.temperature_inlet), HumidMixture(gas.mixture)
+        unsolved(~is_steam(gas), type(self).card, reason=NO_STEAM)
         water = leaving(feed, dried_share(feed, self.moisture_outlet))
         moist = gas.replace(gas=gas.gas.at[humid.vapor].add(water), temperature=T)
         w, c = humid.humidity_ratio(moist), moist.gas_heat_capacity
