@@ -59,7 +59,7 @@ from granum.crystallization.population.grid import Collisions, check_only_growin
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Packets, Seeds
-from granum.crystallization.vessels.batch import BUSIEST, narrow_seeds
+from granum.crystallization.vessels.batch import BUSIEST, SEED_PACKETS, narrow_seeds
 from granum.crystallization.vessels.crystals import born_share
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
@@ -277,7 +277,8 @@ class BatchVessel(Unit):
         solvent = jnp.where(solvent > 0, solvent, TRICKLE)
         if self.collisions is not None:
             check_only_growing(model)
-            seeds = side_by_side(seeds, jnp.append(seeds.low, seeds.high))
+            ends = seeds.high[jnp.array([SEED_PACKETS - 1, -1])]  # of the sieve cut and of the feed's classes
+            seeds = side_by_side(seeds, jnp.append(seeds.low, ends))
         course = march(
             model, operation, seeds, charge.liquid[found.solute], solvent, times, self.collisions
         )
