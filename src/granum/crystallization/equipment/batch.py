@@ -279,9 +279,7 @@ class BatchVessel(Unit):
             check_only_growing(model)
             ends = seeds.high[jnp.array([SEED_PACKETS - 1, -1])]  # of the sieve cut and of the feed's classes
             seeds = side_by_side(seeds, jnp.append(seeds.low, ends))
-        course = march(
-            model, operation, seeds, charge.liquid[found.solute], solvent, times, self.collisions
-        )
+        course = march(model, operation, seeds, charge.liquid[found.solute], solvent, times, self.collisions)
         return Grown(course, found, held)
 
     def calm(self, course: Course) -> None:
