@@ -26,6 +26,11 @@ from granum.crystallization.charts_solutions import (
     polymorph_chart as polymorph_chart,
     solubilities_chart as solubilities_chart,
 )
+from granum.crystallization.equipment.adductive import (
+    AdductFigures as AdductFigures,
+    AdductiveCrystallizer as AdductiveCrystallizer,
+    Bound as Bound,
+)
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer as AntisolventBatchCrystallizer,
     AntisolventCrystallizer as AntisolventCrystallizer,
