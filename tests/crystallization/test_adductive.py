@@ -90,8 +90,8 @@ def test_random_settings_close():
 def test_what_cannot_be_is_said():
     with pytest.raises(InputError, match="hexane"):
         unit(substance="hexane").operate(feed=fed(1.0, 1.0, 0.0))
+    bare = empty(mixture_of([], ["silica sand"], ["dry air"], [1e-5, 1e-3]), 298.15)
     with pytest.raises(CaseError, match="no liquid"):
-        bare = empty(mixture_of([], ["sand"], ["dry air"], [1e-5, 1e-3]), 298.15)
         unit().operate(feed=bare)
     with collect() as records:
         unit(liquor_per_crystals=5.0).operate(feed=fed(0.9, 0.1, 0.0))

@@ -511,6 +511,9 @@ from granum.crystallization.recipes import (
     choose as choose,
     optimal_cooling as optimal_cooling,
 )
+from granum.crystallization.robust import (
+    Scaled as Scaled,
+)
 from granum.crystallization.vessels.batch import (
     AgglomeratingCourse as AgglomeratingCourse,
     BatchCourse as BatchCourse,

@@ -55,8 +55,8 @@ class AdductFigures(NamedTuple):
 
 
 class Bound(NamedTuple):
-    """What the agent takes (mol/s), the mole fractions fed and left, adduct and agent (kg/s), the share of the
-    liquor that adheres, and the place of the substance.
+    """What the agent takes (mol/s), the mole fractions fed and left, adduct and agent (kg/s), the share of
+    the liquor that adheres, and the place of the substance.
     """
 
     moles: Any
