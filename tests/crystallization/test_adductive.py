@@ -76,7 +76,7 @@ def test_random_settings_close():
             rng.uniform(300.0, 380.0),
             10 ** rng.uniform(4.0, 5.0),
             rng.uniform(1.0, 15.0),
-            rng.uniform(0.5, 1.0),
+            agent_activity=rng.uniform(0.5, 1.0),
             liquor_per_crystals=rng.uniform(0.0, 0.05),
         ).operate(feed=feed)
         product, residue = made.outlets.product, made.outlets.residue
