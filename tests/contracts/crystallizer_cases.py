@@ -11,6 +11,7 @@ import numpy as np
 from tests.contracts.unit_search import Case, shares
 from tests.contracts.vessel_cases import crystallizers, solution
 
+from granum.crystallization.equipment.adductive import AdductiveCrystallizer
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer,
     AntisolventCrystallizer,
@@ -118,6 +119,18 @@ def _melt(mixture: Mixture, x: Any) -> dict[str, Stream]:
             * jnp.stack([0.0 * shares(x[5], x[4], classes), shares(x[5], x[4], classes)]),
             liquid=water * jnp.stack([1.0, 0.03 * x[1], 0.03 * x[6]]),
             gas=1e-4 * water * jnp.stack([0.0, x[7]]),
+        )
+    }
+
+
+def _oils(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of three oils with sand and nitrogen."""
+    flow, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    return {
+        "feed": empty(mixture, 270.0 + 50.0 * x[2]).replace(
+            solid=flow * 0.02 * x[7] * shares(x[5], x[4], classes)[None],
+            liquid=flow * jnp.stack([x[1], x[3], x[6]]),
+            gas=1e-3 * flow * jnp.stack([x[7]]),
         )
     }
 
@@ -313,6 +326,18 @@ def mixed(classes: int) -> dict[str, Case]:
             subliming,
             _subliming,
             lambda f, u: Desublimer(275.0 + 40.0 * u[0], 10.0 ** (3.0 + 2.3 * u[1]), crystal_size=1e-4),
+        ),
+        "adducts": Case(
+            mixture_of(["heptane", "toluene", "cyclohexane"], ["silica sand"], ["nitrogen"], edges),
+            _oils,
+            lambda f, u: AdductiveCrystallizer(
+                260.0 + 50.0 * u[0],
+                300.0 + 80.0 * u[1],
+                10.0 ** (4.0 + u[2]),
+                1.0 + 14.0 * u[3],
+                0.5 + 0.5 * u[4],
+                liquor_per_crystals=0.02 * u[5],
+            ),
         ),
         "layers": Case(
             nitrate,

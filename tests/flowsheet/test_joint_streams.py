@@ -420,6 +420,7 @@ AS_ALONE = (  # with the values with which they open by themselves
     "drying.grain_bin",
     "drying.impingement_dryer",
     "drying.paper_machine",
+    "crystallization.adductive_crystallizer",
     "crystallization.layer_melt_crystallizer",
     "crystallization.suspension_melt_crystallizer",
     "dust.mesh_pad",

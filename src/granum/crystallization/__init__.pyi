@@ -26,6 +26,11 @@ from granum.crystallization.charts_solutions import (
     polymorph_chart as polymorph_chart,
     solubilities_chart as solubilities_chart,
 )
+from granum.crystallization.equipment.adductive import (
+    AdductFigures as AdductFigures,
+    AdductiveCrystallizer as AdductiveCrystallizer,
+    Bound as Bound,
+)
 from granum.crystallization.equipment.antisolvent import (
     AntisolventBatchCrystallizer as AntisolventBatchCrystallizer,
     AntisolventCrystallizer as AntisolventCrystallizer,
@@ -505,6 +510,9 @@ from granum.crystallization.recipes import (
     Processes as Processes,
     choose as choose,
     optimal_cooling as optimal_cooling,
+)
+from granum.crystallization.robust import (
+    Scaled as Scaled,
 )
 from granum.crystallization.vessels.batch import (
     AgglomeratingCourse as AgglomeratingCourse,

@@ -14,6 +14,7 @@ from granum.core.kinds import (
     NumberDensity,
     PositiveNumber,
     Pressure,
+    Ratio,
     Volume,
     Within,
 )
@@ -88,6 +89,7 @@ GasPressure = Annotated[Pressure, Within(1e-3)]  # absolute; no gas has none
 Saturated = Annotated[Fraction, Within(1e-3, 1.0)]  # share of saturation that a gas reaches
 CountBound = Annotated[NumberDensity, Within(1.0)]
 ReadingDeviation = Annotated[Fraction, Within(0.0, 0.2)]
+KineticDeviation = Annotated[Ratio, Within(0.0, 2.0)]
 Solubility = Annotated[Any, Law("solubility_law")]
 Growth = Annotated[Any, Law("growth_rate")]
 Nucleation = Annotated[Any, Law("nucleation_rate")]

@@ -32,10 +32,11 @@ from granum.core.kinds import (
 )
 from granum.core.units import format_number
 from granum.crystallization.formulas.programs import TemperaturePoints
-from granum.crystallization.kinds import Growth, Nucleation, Solubility, Steps
+from granum.crystallization.kinds import Growth, KineticDeviation, Nucleation, Solubility, Steps
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
+from granum.crystallization.robust import Robustness, Scaled, guarded, reach
 from granum.crystallization.vessels.batch import SEED_PACKETS, narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal
 
@@ -49,6 +50,8 @@ class CoolingRecipe(NamedTuple):
     nuclei_mass_fraction: Ratio
     nuclei_mass_fraction_linear: Ratio
     mean_diameter: Length
+    relative_supersaturation_guarded: Number
+    nuclei_mass_fraction_guarded: Ratio
 
 
 @compiled
@@ -72,7 +75,7 @@ def _run(shares: Any, setting: tuple[Any, ...], steps: int) -> tuple[Any, Any, A
 
 
 @procedure(
-    source="miller1994; chung1999; jones1974",
+    source="miller1994; chung1999; jones1974; nagy2004",
     title="Optimal cooling program of a seeded batch",
     typical={"duration": (3600.0, 7200.0)},
 )
@@ -93,12 +96,22 @@ def optimal_cooling(
     relative_supersaturation_maximum: PositiveNumber = 1.0,
     intervals: Annotated[int, Within(1, 200)] = 12,
     steps: Steps = 200,
+    growth_deviation: KineticDeviation = 0.0,
+    nucleation_deviation: KineticDeviation = 0.0,
+    guarded_probability: Annotated[Fraction, Within(0.5, 0.9999)] = 0.9,
+    robustness: Robustness = "chance",
 ) -> CoolingRecipe:
     """Cooling program, straight by pieces and never rising, that leaves the least mass grown from nuclei at
     given start and end.
 
     The final temperature fixes the yield; the supersaturation is kept below a maximum. Gradients of the whole
     simulation are exact (SLSQP on the share of the temperature fall in each interval).
+
+    Where rates are uncertain, give the relative standard deviation of growth and of nucleation: then the
+    nuclei and each supersaturation on the way are those that are not exceeded with ``guarded_probability``
+    (``chance``), or anywhere in the region that holds both rates with it (``worst case``), after Nagy and
+    Braatz, with both ends of each range in place of slopes. Rates are taken as log-normal and not
+    correlated; orders are as given.
 
     >>> recipe = optimal_cooling(
     ...     solute_per_solvent=0.492990,
@@ -138,7 +151,23 @@ def optimal_cooling(
     )
     setting = (model, seeds, *arrays)
 
+    deviations = float(growth_deviation), float(nucleation_deviation)
+    uncertain, times_guarded = any(deviations), reach(float(guarded_probability), robustness)
+
+    def logs(q: Any, logarithms: Any) -> Any:
+        """Logarithm of the nuclei and supersaturations, the rates being multiplied."""
+        there = eqx.tree_at(
+            lambda m: (m.growth, m.nucleation),
+            model,
+            tuple(Scaled(law, jnp.exp(logarithms[i])) for i, law in enumerate((growth, nucleation))),
+        )
+        nuclei, S, _size = _run(q, (there, *setting[1:]), steps)
+        return jnp.concatenate([jnp.log(jnp.maximum(nuclei, 1e-30))[None], S[1:]])
+
     def figures(q: Any) -> Any:
+        if uncertain:
+            found = guarded(lambda x: logs(q, x), deviations, times_guarded)
+            return found.at[0].set(jnp.exp(found[0]))
         nuclei, S, _size = _run(q, setting, steps)
         return jnp.concatenate([nuclei[None], S[1:]])
 
@@ -158,7 +187,7 @@ def optimal_cooling(
     rules: list[dict[str, Any]] = [
         {"type": "eq", "fun": lambda q: np.sum(q) - 1.0, "jac": lambda q: np.ones((1, intervals))}
     ]
-    if float(jnp.max(at_linear)) > 0.2 * limit:
+    if uncertain or float(jnp.max(at_linear)) > 0.2 * limit:
         rules.append(
             {
                 "type": "ineq",
@@ -190,7 +219,17 @@ def optimal_cooling(
     temperature = temperature_start - (temperature_start - temperature_end) * np.concatenate(
         [[0.0], np.cumsum(shares)]
     )
-    return CoolingRecipe(times, temperature, float(jnp.max(S)), float(nuclei), float(linear), float(mean))
+    kept = both(shares)[0]
+    return CoolingRecipe(
+        times,
+        temperature,
+        float(jnp.max(S)),
+        float(nuclei),
+        float(linear),
+        float(mean),
+        float(np.max(kept[1:])),
+        float(kept[0]),
+    )
 
 
 Downstream = Literal["dryer", "centrifuge", "reaction"]

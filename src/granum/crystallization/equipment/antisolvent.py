@@ -277,7 +277,7 @@ class DrownedBatchFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     seed_mass: Mass
     volume: Volume
     heat_duty: Power
@@ -323,7 +323,7 @@ class Dosed(Operation):
     title="Batch crystallizer with antisolvent (drowning out)",
     equation=r"m_a(t) = m_a\left(\frac{t}{t_f}\right)^p,\quad C^* = C^*(T, w)",
 )
-class AntisolventBatchCrystallizer(CycledVessel):
+class AntisolventBatchCrystallizer(Colliding, CycledVessel):
     """Batches of a continuous feed into which an antisolvent runs that lowers the solubility; outlets are
     means over the cycle.
 
@@ -365,6 +365,7 @@ class AntisolventBatchCrystallizer(CycledVessel):
         )
         model = self._model(met.replace(temperature=self.temperature), found)
         grown = self._grown(model, operation, feed.replace(solid=met.solid), found, first)
+        self.calm(grown.course)
         # once more where its flags are heard: inside what is compiled they are lost
         self.solubility(self.temperature, antisolvent_share(met, found, second))
         return grown

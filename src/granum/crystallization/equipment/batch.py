@@ -13,6 +13,7 @@ import numpy as np
 
 from granum.core import equipment
 from granum.core.errors import CaseError, GranumError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
@@ -37,6 +38,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.beside import heard_beside, keeps_solvent, solubility_beside
+from granum.crystallization.equipment.colliding import UNSOLVED_BUSY, Colliding
 from granum.crystallization.equipment.heat import StreamHeat
 from granum.crystallization.equipment.roles import (
     LARGEST,
@@ -53,10 +55,11 @@ from granum.crystallization.equipment.stirring import SUSPENDED, Stirred
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.inside_charts import drawn_course
 from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Program, Solubility, VesselVolume
+from granum.crystallization.population.grid import Collisions, check_only_growing, side_by_side
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Packets, Seeds
-from granum.crystallization.vessels.batch import narrow_seeds
+from granum.crystallization.vessels.batch import BUSIEST, SEED_PACKETS, narrow_seeds
 from granum.crystallization.vessels.crystals import born_share
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
@@ -67,6 +70,7 @@ from granum.streams.units import Limits, Operated, Unit, Utilities
 from granum.streams.utilities import COOLED, HEATED, STIRRED, cooled, heated
 
 STEPS = 300
+NARROWEST = 1e-3  # width of a sieve cut over its size, where its crystals are followed in classes
 ASKED = 50  # steps after which a liquor is asked what else would crystallize from it
 INSIDE = 1000.0  # W/(m² K) on the inside of a jacketed wall, where neither it nor a stirrer is given
 TRICKLE = 1e-12  # kg/s of solvent, so that an empty feed gives an empty product
@@ -95,7 +99,7 @@ class BatchFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     seed_mass: Mass
     volume: Volume
     heat_duty: Power
@@ -112,7 +116,7 @@ class JacketedBatchFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     seed_mass: Mass
     vessel_count: Ratio
     temperature_end: Temperature
@@ -133,7 +137,7 @@ class VacuumBatchFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     seed_mass: Mass
     volume: Volume
     evaporation: MassFlow
@@ -172,6 +176,11 @@ class Grown(NamedTuple):
     def final(self) -> Packets:
         """Crystals at the end, seeds first."""
         return self.course.final
+
+    @property
+    def moments(self) -> Any:
+        """Moments 0 to 4 of the crystals at the end."""
+        return self.course.moments[-1]
 
     @property
     def parcels(self) -> int:
@@ -213,6 +222,11 @@ class BatchVessel(Unit):
         ),
     }
 
+    @property
+    def collisions(self) -> Collisions | None:
+        """What crystals do to each other: nothing, in a vessel that does not ask."""
+        return None
+
     @abstractmethod
     def _time(self, feed: Stream) -> Any:
         """Time from charge to product, s."""
@@ -237,8 +251,10 @@ class BatchVessel(Unit):
         """Mass of seed held back from the product, and all seeds, those that come with the feed included."""
         entering = feed_of(feed, found)
         cube = self._model(feed, found).crystal.mass_per_cube
-        held = self.seed_mass_per_solvent * entering.solvent
-        added = narrow_seeds(self.seed_size, self.seed_width, held, cube)
+        held, width = self.seed_mass_per_solvent * entering.solvent, self.seed_width
+        if self.collisions is not None:
+            width = jnp.maximum(width, NARROWEST * self.seed_size)
+        added = narrow_seeds(self.seed_size, width, held, cube)
         edges = jnp.asarray(feed.mixture.edges)
         low, high = edges[:-1], edges[1:]
         number = entering.crystals / (cube * 0.25 * (low + high) * (low**2 + high**2))
@@ -259,8 +275,17 @@ class BatchVessel(Unit):
         held, seeds = self._seeding(charge, found)
         times = jnp.linspace(0.0, self._time(charge) if duration is None else duration, STEPS + 1)
         solvent = jnp.where(solvent > 0, solvent, TRICKLE)
-        course = march(model, operation, seeds, charge.liquid[found.solute], solvent, times)
+        if self.collisions is not None:
+            check_only_growing(model)
+            ends = seeds.high[jnp.array([SEED_PACKETS - 1, -1])]  # of the sieve cut and of the feed's classes
+            seeds = side_by_side(seeds, jnp.append(seeds.low, ends))
+        course = march(model, operation, seeds, charge.liquid[found.solute], solvent, times, self.collisions)
         return Grown(course, found, held)
+
+    def calm(self, course: Course) -> None:
+        """Refuse steps in which too many crystals meet."""
+        if self.collisions is not None:
+            unsolved(jnp.max(course.collided) <= BUSIEST, type(self).card, reason=UNSOLVED_BUSY)
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         if not float(inlets["feed"].liquid_flow) > 0.0 or np.ndim(made.inside.course.time) != 1:
@@ -283,18 +308,27 @@ class BatchVessel(Unit):
         entering = feed_of(feed, found)
         made = product.solid_by_species[found.solid]
         fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
-        _mass, seeds = self._seeding(feed, found)
         final = inside.final
-        cubes = final.number * 0.25 * (final.low + final.high) * (final.low**2 + final.high**2)
-        seeded = jnp.sum(cubes[: inside.parcels * seeds.low.shape[0]])
+        if self.collisions is not None:  # who was a nucleus is forgotten where crystals join
+            mean, share = safe_divide(inside.moments[4], inside.moments[3]), None
+        else:
+            mean, share = final.mean_size(4, 3), self._born(inside, feed)
         return (
             made,
             safe_divide(found.solute_fraction * made, fed),
             safe_divide(made, product.slurry_volume_flow),
             jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0,
-            final.mean_size(4, 3),
-            born_share(seeded, jnp.sum(cubes)),
+            mean,
+            share,
         )
+
+    def _born(self, inside: Grown, feed: Stream) -> Any:
+        """Mass share of the crystals that were born in the vessel."""
+        _mass, seeds = self._seeding(feed, inside.found)
+        final = inside.final
+        cubes = final.number * 0.25 * (final.low + final.high) * (final.low**2 + final.high**2)
+        seeded = jnp.sum(cubes[: inside.parcels * seeds.low.shape[0]])
+        return born_share(seeded, jnp.sum(cubes))
 
     def _cooled(self, inside: Grown, feed: Stream) -> BatchOutlets:
         """The outlets of a vessel that gives up no vapor."""
@@ -337,6 +371,7 @@ class ChargedVessel(BatchVessel):
         found = roles(feed.mixture, self.solid, self.solvent)
         model, operation = self._model(feed, found), self._operation(feed, found, self._time(feed))
         grown = self._grown(model, operation, feed, found, feed.liquid[found.solvent])
+        self.calm(grown.course)
         self.heard(feed, found, grown.course)
         return grown
 
@@ -384,7 +419,7 @@ def thermal(duty: Any, feed: Stream, product: Stream) -> dict[str, Any]:
     title="Seeded batch crystallizer",
     equation=r"\dot m = m_{batch} / (t_f + t_{dead})",
 )
-class BatchCrystallizer(CycledVessel, ChargedVessel):
+class BatchCrystallizer(Colliding, CycledVessel, ChargedVessel):
     """Cooling batch that treats a continuous feed in cycles of batch and dead time; outlets are means over
     the cycle.
 
@@ -392,8 +427,8 @@ class BatchCrystallizer(CycledVessel, ChargedVessel):
     which is taken from the product (a share of the crystals is held back for the next batch, so that the line
     balances). Other salts count as in ``msmpr``. The duty is the mean one; its peak is larger. The vessel is
     as high as wide; without a ``rotation_speed`` its stirrer turns just fast enough to keep all crystals off
-    the bottom. Crystals neither agglomerate nor break here: ``crystallization.agglomerating_batch`` follows
-    those that do.
+    the bottom. With ``agglomeration_kernel`` or ``breakage_law`` crystals meet, break or chip while they
+    grow, followed in classes that move with the growth; which of them began as nuclei is then not told.
     """
 
     temperature_program: Program
@@ -427,7 +462,7 @@ class BatchCrystallizer(CycledVessel, ChargedVessel):
     title="Batch crystallizer cooled through a jacket",
     equation=r"\frac{dT}{dt} = \frac{U A (T_j - T) + q_c\,\dot m_c}{m c_p}",
 )
-class JacketedBatchCrystallizer(CycledVessel, ChargedVessel):
+class JacketedBatchCrystallizer(Colliding, CycledVessel, ChargedVessel):
     """Batch vessels of a given volume and jacket that treat a continuous feed in cycles; the temperature
     follows from the heat balance.
 
@@ -544,7 +579,7 @@ class JacketedBatchCrystallizer(CycledVessel, ChargedVessel):
     title="Batch crystallizer cooled by boiling under vacuum",
     equation=r"L_v\,\dot m_v = -m c_p \frac{dT}{dt} + q_c\,\dot m_c",
 )
-class VacuumBatchCrystallizer(CycledVessel, ChargedVessel):
+class VacuumBatchCrystallizer(Colliding, CycledVessel, ChargedVessel):
     """Batch vessels that cool by boiling under falling pressure, with no cooled wall to grow a crust, for a
     continuous feed in cycles.
 

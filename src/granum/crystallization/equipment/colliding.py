@@ -1,4 +1,4 @@
-"""Crystals that agglomerate and break in a mixed vessel, where that is asked for."""
+"""Crystals that agglomerate and break in a vessel, where that is asked for."""
 
 from __future__ import annotations
 
@@ -20,9 +20,14 @@ UNSOLVED_CROWD = (
     "breakage frequency, or a 'breakage_law' where they only meet."
 )
 
+UNSOLVED_BUSY = (
+    "More than half of the crystals meet or break within one time step of the batch: check the unit of the "
+    "kernel, or give a smaller kernel, breakage frequency or time."
+)
+
 
 class Colliding(eqx.Module):
-    """A mixed vessel in which crystals may agglomerate by a kernel and break or chip by a law."""
+    """A vessel in which crystals may agglomerate by a kernel and break or chip by a law."""
 
     agglomeration_kernel: Kernel | None = eqx.field(kw_only=True, default=None)
     breakage_law: BreakageLaw | None = eqx.field(kw_only=True, default=None)

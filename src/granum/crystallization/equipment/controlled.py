@@ -38,6 +38,7 @@ from granum.crystallization.equipment.batch import (
     Grown,
     thermal,
 )
+from granum.crystallization.equipment.colliding import Colliding
 from granum.crystallization.equipment.heat import StreamHeat
 from granum.crystallization.equipment.roles import Roles
 from granum.crystallization.kinds import CountBound, Dissolution, ReadingDeviation
@@ -61,7 +62,7 @@ class ControlledBatchFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     seed_mass: Mass
     volume: Volume
     time_cooled: Time
@@ -172,7 +173,7 @@ class FollowedBatch(CycledVessel, ChargedVessel):
     title="Batch crystallizer at constant supersaturation",
     equation=r"C^*(T) = \frac{C}{1 + \sigma_c},\quad |\dot T| \le R_{\max},\quad T_f \le T \le T_0",
 )
-class ControlledBatchCrystallizer(FollowedBatch):
+class ControlledBatchCrystallizer(Colliding, FollowedBatch):
     """Cooling batch whose temperature is set from the concentration read, so that the liquor keeps a relative
     supersaturation; outlets are means over the cycle.
 

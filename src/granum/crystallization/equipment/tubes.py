@@ -40,6 +40,7 @@ from granum.crystallization.equipment.batch import (
     Grown,
     thermal,
 )
+from granum.crystallization.equipment.colliding import Colliding
 from granum.crystallization.equipment.roles import Roles, roles
 from granum.crystallization.formulas.slugs import SlugFlow, slug_flow
 from granum.crystallization.formulas.tubes import OrificeArea, oscillatory_flow, oscillatory_loss
@@ -65,7 +66,7 @@ class PlugFlowFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     residence_time: Time
     heat_duty: Power
 
@@ -113,6 +114,11 @@ class Spread(NamedTuple):
         return Packets(low, high, number)
 
     @property
+    def moments(self) -> Any:
+        """Moments 0 to 4 of the crystals of all parcels at the end."""
+        return self.shares @ self.course.moments[:, -1]
+
+    @property
     def parcels(self) -> int:
         """Parcels with seeds of their own."""
         return PARCELS
@@ -128,7 +134,7 @@ def stays(tanks: Any) -> tuple[Any, Any]:
     return t / jnp.sum(w * t), jnp.asarray(w)
 
 
-class Tube(ChargedVessel):
+class Tube(Colliding, ChargedVessel):
     """A tube along which the temperature follows a program of the time since the inlet."""
 
     temperature_program: Program
@@ -161,6 +167,7 @@ class Tube(ChargedVessel):
 
         times, shares = stays(jnp.asarray(self.tank_number_tube, dtype=float))
         course = jax.vmap(parcel)(times)
+        self.calm(course)
         self.heard(feed, found, course)
         held, _seeds = self._seeding(feed, found)
         return Spread(course, shares, found, held)
@@ -183,7 +190,7 @@ class PlugFlowCrystallizer(Tube):
     residence time. Backmixing spreads the stays: with ``tank_number_tube`` they are those of so many mixed
     tanks in series (half the Péclet number of axial dispersion, nearly), each parcel on its own, slower or
     faster past the same temperatures; a cascade of a few mixed vessels shares its liquor, which parcels do
-    not. Crystals neither agglomerate nor break.
+    not. Crystals that meet, break or chip are followed as in ``batch_crystallizer``.
     """
 
     volume: VesselVolume
@@ -211,7 +218,7 @@ class BaffledTubeFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     residence_time: Time
     heat_duty: Power
     reynolds_oscillatory: Ratio
@@ -239,7 +246,8 @@ class BaffledTubeCrystallizer(Tube):
     plug flow, which holds where the oscillation is two to four times as fast as the net flow; the checks tell
     where it is not, and where it is too weak to fill the cells with vortices. The power is what the baffles
     take and becomes heat, which is small and left out. The kinetics must be those of this mixing: a baffled
-    tube strikes crystals less than a stirrer, and here they neither agglomerate nor break.
+    tube strikes crystals less than a stirrer. They agglomerate and break by the laws that are given, as in
+    ``batch_crystallizer``; the laws take the shear and power that they are given, not those of the baffles.
     ``tank_number_tube`` spreads the stays as in ``plug_flow_crystallizer``.
     """
 
@@ -300,7 +308,7 @@ class SlugTubeFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter_mass: Distance
-    nuclei_mass_fraction: Ratio
+    nuclei_mass_fraction: Ratio | None
     residence_time: Time
     heat_duty: Power
     velocity_bubble: Velocity
@@ -327,8 +335,8 @@ class SlugFlowCrystallizer(Tube):
     The temperature along the tube is given by a program of the time since the inlet. Gas and liquid meet at
     the inlet and slugs form by themselves; their length is measured, or chosen where the gas comes in pulses.
     The flow of the gas is that at the pressure of the tube, in which it takes up neither heat nor vapor. The
-    stay is that of the liquid, which the gas shortens. The kinetics must be those of this gentle mixing;
-    crystals neither agglomerate nor break.
+    stay is that of the liquid, which the gas shortens. The kinetics must be those of this gentle mixing,
+    a kernel and a law of breakage too, where crystals meet or break.
     What the film at the wall passes from slug to slug is left out, or spread by ``tank_number_tube`` as in
     ``plug_flow_crystallizer``. Above an Eötvös number of about 3.4 bubbles rise in the liquid.
     """

@@ -269,8 +269,19 @@ def fragments(breakage: Any, x: Any, low: Any, high: Any) -> Any:
     return found * safe_divide(x, x @ found, 1.0)[None, :]
 
 
-def check_classes(model: Any, seeds: Seeds) -> None:
-    """Raise where the classes could not follow a batch."""
+def side_by_side(seeds: Seeds, edges: Any) -> Seeds:
+    """Seeds shared out over adjacent classes between given edges, each packet evenly over its own width; the
+    edges must hold those of all packets.
+    """
+    edges = jnp.sort(jnp.asarray(edges, dtype=float))
+    low, high = edges[:-1], edges[1:]
+    shared = jnp.minimum(high, seeds.high[:, None]) - jnp.maximum(low, seeds.low[:, None])
+    part = safe_divide(jnp.maximum(shared, 0.0), (seeds.high - seeds.low)[:, None], 0.0)
+    return Seeds(low, high, seeds.number @ part)
+
+
+def check_only_growing(model: Any) -> None:
+    """Raise where crystals do more than grow, which the classes do not follow."""
     if model.dissolution is not None or model.size_map is not None:
         raise ApplicabilityError(
             _(
@@ -278,6 +289,11 @@ def check_classes(model: Any, seeds: Seeds) -> None:
                 "does not depend on size."
             )
         )
+
+
+def check_classes(model: Any, seeds: Seeds) -> None:
+    """Raise where the classes could not follow a batch."""
+    check_only_growing(model)
     low, high = jax.device_get((seeds.low, seeds.high))
     if len(low) > 1 and abs(high[:-1] - low[1:]).max() > 1e-9 * high[-1]:
         raise InputError(
