@@ -61,12 +61,13 @@ class BatchFilter(CakeFilter):
     )
 
     limits: ClassVar[Limits] = CakeFilter.limits | {
+        # the number is our own: at one the pressure is never reached
         "pumped": Limit(
             "share of the cake that is formed before the pump reaches its pressure (beyond, it never does)",
             0.0,
             0.99,
             "dimensionless",
-            "geankoplis2003, § 14.2: the number is our own",
+            "geankoplis2003, § 14.2",
             quiet=True,
         )
     }
