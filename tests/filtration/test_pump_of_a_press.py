@@ -1,4 +1,4 @@
-"""A pump that cannot follow: batch filters at its flux until their pressure is reached, by sums over cakes."""
+"""A pump that cannot follow: filters at its flux until their pressure is reached, by sums over cakes."""
 
 from __future__ import annotations
 

@@ -67,8 +67,8 @@ def class_velocities(
     """Hindered settling velocity of each species and size class, m/s; negative for what rises.
 
     In a field of so many times gravity (``effect``) the velocity is told per unit of it, with the drag of the
-    Reynolds number that the particle has there. A ``carrier`` takes the place of the liquid's viscosity and of
-    the drag.
+    Reynolds number that the particle has there. A ``carrier`` takes the place of the liquid's viscosity and
+    of the drag.
     """
     m = feed.mixture
     density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
