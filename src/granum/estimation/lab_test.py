@@ -121,14 +121,15 @@ class LabTest(eqx.Module):
         "standard_errors"}``. Of a series of tests that is the next test.
         """
         name, kind = next(iter(self.axes.items()))
-        problem, measured = found.problem, getattr(self, name, None)
+        problem, given = found.problem, getattr(self, name, None)
         several = InputError(
             _(
                 "Where the next measurement tells most is known of tests whose readings stand over one "
                 "column; '{card}' computes its places from several."
             ).format(card=type(self).card.key)
         )
-        plain = measured is not None and np.ndim(problem.x) == 1 and np.shape(problem.x) == np.shape(measured)
+        measured = np.empty(0) if given is None else np.asarray(given, dtype=float)
+        plain = np.ndim(problem.x) == 1 and np.shape(problem.x) == np.shape(measured)
         if not plain or not np.allclose(np.sort(problem.x), np.sort(measured), rtol=1e-9):
             raise several
         order = np.argsort(problem.x)
