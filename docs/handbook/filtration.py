@@ -87,6 +87,14 @@ drum_cake = drum_rate * 120 / 50 / (2710 * 0.5)
 drum_drive = 50 * RotaryVacuumDrum.card.parameter("drive_power_per_area").default
 press_pump = pumped(press.mean_filtrate_flow, 3.38e5)
 
+
+def filling(**pump):
+    """Time to fill the press of the example."""
+    return gr.alone("filtration.chamber_press", **pump).solve().figure("chamber_press.formation_time")
+
+
+filled, filled_slowly = filling(), filling(filtrate_flux_largest="300 L/m2/h")
+
 # ---- quick tests
 BENCH = Path(examples_folder()) / "lab-tests"
 suction = f.CapillarySuctionTest.read(
@@ -268,6 +276,33 @@ half_out = pressed[0.07] / 0.5
 """Pump work for a volume of permeate where half of sea water passes at the least pressure."""
 evaporated = 930e3 * 1000
 times = evaporated / half_out
+
+
+def plant(**stages):
+    """Whey protein from 0.5 g/L on 90 m² in two stages, as Coulson and Richardson set it."""
+    run = gr.alone(
+        "filtration.ultrafiltration",
+        area="90 m2",
+        stage_count="2",
+        mass_transfer_coefficient="0.02 m/h",
+        concentration_gel="30 g/L",
+        medium_resistance="1e11 1/m",
+        fouling_resistance=0,
+        pore_diameter="1 nm",
+        solvent="no",
+        mixture={"liquids": "water", "solids": "whey protein"},
+        feed={
+            "liquid_flow": "2.5 m3/h",
+            "solid_flow": "1.25 kg/h",
+            "temperature": "20 degC",
+            "liquid": {"water": 1.0},
+        },
+        **stages,
+    ).solve()
+    return run.figure("ultrafiltration.concentration_retentate")
+
+
+halves, thirds = plant(), plant(area_shares=[60, 30])
 
 
 # ---- carbon

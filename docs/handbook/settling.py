@@ -96,6 +96,28 @@ smallest = float(p.terminal_diameter("1 m/hour", **QUARTZ))
 ideal = float(s.removal_efficiency_camp("0.5 m/hour", "1 m/hour"))
 real = float(s.removal_efficiency_hazen("0.5 m/hour", "1 m/hour"))
 real_full = float(s.removal_efficiency_hazen("1 m/hour", "1 m/hour"))
+
+
+def kept(**liquid):
+    """Share of quartz of 100 µm that a basin at 1 m/h keeps."""
+    run = gr.alone(
+        "settling.clarifier",
+        area="100 m2",
+        mixture={"solids": "quartz", "liquids": "water", "sizes": {"boundaries": ["99.5 um", "100.5 um"]}},
+        feed={
+            "solid_flow": "10 kg/h",
+            "liquid_flow": "100 t/h",
+            "liquid": {"water": 1.0},
+            "sizes": {"fractions": [1.0]},
+            "temperature": "20 degC",
+        },
+        **liquid,
+    ).solve()
+    return run.figure("clarifier.removal_efficiency")
+
+
+kept_thinning = kept(consistency="50 mPa*s", flow_index=0.7)
+holding = p.yield_stress_beris("100 um", 2650, 998.2)
 # ---- layers
 benchmark = {"feed_concentration": 3.269837, "area": 1500, "height": 4, "nonsettleable_share": 0.00228}
 plant = s.settler_layers("36892 m^3/day", underflow_volume_flow="18831 m^3/day", **benchmark)

@@ -186,7 +186,7 @@ def fit(
         bool, typer.Option("--robust", help="Of a formula or law: stray points lose their pull (Huber).")
     ] = False,
     next_point: Annotated[
-        bool, typer.Option("--next", help="Of a formula or law: where the next measurement tells most.")
+        bool, typer.Option("--next", help="Where the next measurement tells most.")
     ] = False,
 ) -> None:
     """Fit a lab test, a formula or a law to a data file: parameters with 95 % intervals."""
@@ -194,9 +194,9 @@ def fit(
 
     thing = registry.find(key)
     if thing.card.sort == "lab test":
-        if estimate or output or robust or next_point:
+        if estimate or output or robust:
             raise InputError(
-                _("A lab test knows what it estimates: leave out --estimate, --output, --robust and --next.")
+                _("A lab test knows what it estimates: leave out --estimate, --output and --robust.")
             )
         test = thing.read(data, **pairs(conditions))
         found = test.fit()

@@ -11,6 +11,7 @@ import pytest
 import tomli
 from typer.testing import CliRunner
 
+import granum as gr
 from granum.cases.building import add_unit, begin
 from granum.cases.choosing import Advice, advice
 from granum.cases.reading import read_text
@@ -128,3 +129,21 @@ def test_machines_of_a_ranked_table_have_their_units(table: tuple[str, str]) -> 
         models = row["models"].split()
         assert models
         assert all(registry.find(model).card.sort == "equipment" for model in models)
+
+
+@pytest.mark.parametrize(
+    ("bowl", "other"),
+    [
+        ("disc_stack", "disc_separator"),
+        ("tubular_bowl", "tubular_separator"),
+        ("scroll_decanter", "three_phase_decanter"),
+    ],
+)
+def test_a_bowl_fed_with_drops_is_told_of_the_one_that_lets_them_out(bowl: str, other: str) -> None:
+    """It had been told that no other machine suits better, its own check of what floats failing."""
+    run = gr.alone(f"centrifuges.{bowl}", mixture={"solids": "olive oil"}, feed={"solid_flow": "200 kg/h"})
+    (found,) = advice(run.solve()).values()
+    assert [one.model for one in found.others] == [f"centrifuges.{other}"]
+    assert "no outlet" in found.told
+    asked = registry.find(found.card)(**found.inputs)
+    assert max(asked.suitability) > 0.0

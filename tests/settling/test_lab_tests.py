@@ -282,3 +282,22 @@ def test_sludge_index_leaves_out_what_is_too_thick():
     assert stirred["sludge_volume_index"].value == pytest.approx(0.27 / 3.5, rel=1e-9)
     with pytest.raises(InputError, match="dilute further"):
         SludgeIndexTest([4.0, 3.0], [0.7, 0.5]).fit()
+
+
+@pytest.mark.parametrize(
+    ("height", "wide", "told"),
+    [(0.34, 0.06, set()), (0.25, 0.06, {"low cylinder"}), (0.25, 0.004, {"low cylinder", "narrow cylinder"})],
+)
+def test_a_cylinder_too_low_or_too_narrow_is_told(height: float, wide: float, told: set[str]) -> None:
+    """The course asks for 30 cm of height and a hundred particles of 50 µm across."""
+    time = np.arange(0.0, 3600.0, 240.0)
+    curve = height * (0.2 + 0.8 * np.exp(-time / 900.0))
+    test = BatchTest(
+        time=time,
+        interface_height=curve,
+        initial_concentration=4.0,
+        cylinder_diameter=wide,
+        particle_diameter=5e-5,
+    )
+    said = {flag["name"] for flag in test.fit().flags} | {flag.get("flag") for flag in test.fit().flags}
+    assert said & {"low cylinder", "narrow cylinder"} == told

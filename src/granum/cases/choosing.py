@@ -29,6 +29,7 @@ from granum.core.kinds import KINDS
 from granum.core.units import from_si
 from granum.flowsheet.run import Run, UnitReport
 from granum.materials.library import session
+from granum.settling.equipment.gravity import floating_share
 from granum.streams.stream import Stream, median_size
 
 SETTLED = 0.75  # of the best: from here on a machine fits well, and its settings are to be looked at
@@ -37,6 +38,7 @@ MOST = 3  # proposals
 REASONS = 2  # of each
 FLOWING, STANDING = 0.4, 0.6  # volume of solid in solid and liquid: below it flows, above it crumbles
 DRY = 1e-6  # liquid per solid: below it is none
+FLOATS = 0.01  # of the solid, from which the checks of bowls speak of it
 FINE, COARSE = 100e-6, 5e-3  # m: grains below stick to a paste, those above are pieces
 DRYERS, SEPARATORS = ("drying", "dryers_houdon2017"), ("filtration", "separators_svarovsky2001")
 WAYS = {
@@ -57,6 +59,13 @@ WAYS = {
 among them, as a crystallizer is advised about only where it cools.
 """
 WEBS = ("drying.paper_machine", "drying.impingement_dryer", "drying.radiant_dryer")
+SKIMMING = {
+    "centrifuges.disc_stack": "centrifuges.disc_separator",
+    "centrifuges.tubular_bowl": "centrifuges.tubular_separator",
+    "centrifuges.scroll_decanter": "centrifuges.three_phase_decanter",
+    "centrifuges.solid_basket": "centrifuges.tubular_separator",
+}
+"""By bowl with one outlet for liquid, the one of its kind with an outlet for what is lighter."""
 
 
 class Other(NamedTuple):
@@ -121,12 +130,32 @@ def _advised(run: Run, name: str, report: UnitReport) -> Advice | None:
     leaving = _ends(run, name, "origin")
     if "feed" not in entering:
         return None
+    if key in SKIMMING and float(once(floating_share, entering["feed"])) > FLOATS:
+        return _skimmed(key, choice, report, entering, leaving)
     try:
         asked = choice.asked(report, entering, leaving)
         ranked = registry.find(choice.card)(**asked) if asked is not None else None
     except GranumError:  # the stream lies where the card has nothing to say
         return None
     return None if ranked is None or asked is None else _told(key, choice, asked, ranked)
+
+
+def _skimmed(
+    key: str,
+    choice: _Choice,
+    report: UnitReport,
+    entering: Mapping[str, Stream],
+    leaving: Mapping[str, Stream],
+) -> Advice | None:
+    """Of a bowl that has no outlet for what floats."""
+    asked, other = choice.asked(report, entering, leaving), registry.find(SKIMMING[key]).card
+    if asked is None:
+        return None
+    why = _("lets out what floats")
+    told = _("{machine}: what floats has no outlet here. Machines that suit it better: {others}.").format(
+        machine=registry.find(key).card.title, others=f"{other.title} ({why})"
+    )
+    return Advice(choice.card, asked | {"drops": "true"}, (Other(other.title, why, other.key),), told)
 
 
 def _choice(key: str) -> _Choice | None:

@@ -31,19 +31,40 @@ def fall(name: str, values: Any, over: str, places: Any) -> None:
 
     >>> fall("flux_points", [1e-5, 2e-5], "concentration_points", [100.0, 10.0])
     """
-    if is_tracer(values) or is_tracer(places):
+    _ordered(
+        lambda steps: steps > 0.0,
+        _("'{name}' must fall as '{over}' rises; between points {one} and {other} it rises."),
+        (name, values),
+        (over, places),
+    )
+
+
+def rise(name: str, values: Any, over: str, places: Any) -> None:
+    """Refuse points, in any order, that fall as what they were measured over rises.
+
+    >>> rise("flux_points", [2e-5, 1e-5], "pressure_points", [3e5, 1e5])
+    """
+    _ordered(
+        lambda steps: steps < 0.0,
+        _("'{name}' must not fall as '{over}' rises; between points {one} and {other} it falls."),
+        (name, values),
+        (over, places),
+    )
+
+
+def _ordered(wrong: Any, told: str, values: tuple[str, Any], places: tuple[str, Any]) -> None:
+    """Refuse points of which two are at one place, or whose steps are wrong."""
+    if is_tracer(values[1]) or is_tracer(places[1]):
         return
-    at = np.asarray(places, dtype=float)
+    at = np.asarray(places[1], dtype=float)
     order = np.argsort(at, kind="stable")
     if np.any(np.diff(at[order]) == 0.0):
-        raise InputError(_("Two points have the same '{name}'.").format(name=over), name=over)
-    wrong = _first(lambda steps: steps > 0.0, np.asarray(values, dtype=float)[order])
-    if wrong is not None:
+        raise InputError(_("Two points have the same '{name}'.").format(name=places[0]), name=places[0])
+    step = _first(wrong, np.asarray(values[1], dtype=float)[order])
+    if step is not None:
         raise InputError(
-            _("'{name}' must fall as '{over}' rises; between points {one} and {other} it rises.").format(
-                name=name, over=over, one=order[wrong] + 1, other=order[wrong + 1] + 1
-            ),
-            name=name,
+            told.format(name=values[0], over=places[0], one=order[step] + 1, other=order[step + 1] + 1),
+            name=values[0],
         )
 
 

@@ -33,7 +33,7 @@ class NextExperiment(NamedTuple):
     standard_errors: dict[str, float]
 
 
-def next_experiment(fit: Fit, candidates: Any, sigma: float | None = None) -> NextExperiment:
+def next_experiment(fit: Fit, candidates: Any, sigma: Any = None) -> NextExperiment:
     """Rank candidate conditions for the next measurement of a fitted model.
 
     The gain of a measurement with derivatives j and deviation σ is log(1 + jᵀ C j / σ²) in the logarithm of
@@ -42,7 +42,8 @@ def next_experiment(fit: Fit, candidates: Any, sigma: float | None = None) -> Ne
     Parameters
     ----------
     candidates: ``x`` as the model takes it, one entry for each candidate.
-    sigma: standard deviation of the new measurement; by default that of the fit.
+    sigma: standard deviation of the new measurement, one or one for each candidate; by default that of the
+        fit.
     """
     jacobian = _jacobian(fit.problem.model, fit.values, candidates)
     covariance = fit.covariance
@@ -54,10 +55,12 @@ def next_experiment(fit: Fit, candidates: Any, sigma: float | None = None) -> Ne
             )
         )
     spread = fit.statistics["residual_standard_deviation"] if sigma is None else sigma
+    spread = np.broadcast_to(np.asarray(spread, dtype=float), len(jacobian))
     reached = jacobian @ covariance
     gain = np.einsum("ij,ij->i", reached, jacobian) / spread**2
+    gain = np.where(np.isfinite(gain), gain, 0.0)  # where a model has no value, nothing is learned
     best = int(np.argmax(gain))
-    with_best = covariance - np.outer(reached[best], reached[best]) / (spread**2 * (1.0 + gain[best]))
+    with_best = covariance - np.outer(reached[best], reached[best]) / (spread[best] ** 2 * (1.0 + gain[best]))
     errors = dict(zip(fit.values, np.sqrt(np.maximum(np.diag(with_best), 0.0)).tolist(), strict=True))
     return NextExperiment(best, 1.0 / np.sqrt(1.0 + gain), errors)
 

@@ -15,7 +15,9 @@ import numpy as np
 from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _
+from granum.core.kinds import kind_of
 from granum.core.parameters import default_as_json
+from granum.estimation.design import next_experiment
 from granum.estimation.least_squares import fit, judge
 from granum.estimation.results import Fit
 from granum.estimation.tables import Source, read_table
@@ -113,6 +115,38 @@ class LabTest(eqx.Module):
             origins=self.stated(),
             flags=[*map(json.loads, self.of_fluid), *found.flags],
         )
+
+    def next_measurement(self, found: Fit, steps: int = 41) -> dict[str, Any]:
+        """Where in the measured range one more reading tells most, SI: ``{"at", "shrinkage",
+        "standard_errors"}``. Of a series of tests that is the next test.
+        """
+        name, kind = next(iter(self.axes.items()))
+        problem, given = found.problem, getattr(self, name, None)
+        several = InputError(
+            _(
+                "Where the next measurement tells most is known of tests whose readings stand over one "
+                "column; '{card}' computes its places from several."
+            ).format(card=type(self).card.key)
+        )
+        measured = np.empty(0) if given is None else np.asarray(given, dtype=float)
+        plain = np.ndim(problem.x) == 1 and np.shape(problem.x) == np.shape(measured)
+        if not plain or not np.allclose(np.sort(problem.x), np.sort(measured), rtol=1e-9):
+            raise several
+        order = np.argsort(problem.x)
+        grid, unit = np.linspace(np.min(measured), np.max(measured), steps), kind_of(kind)
+        # readings scatter there as those around it
+        scatter = np.interp(
+            grid, np.asarray(problem.x)[order], np.asarray(problem.sigma)[: len(order)][order]
+        )
+        try:
+            told = next_experiment(found, grid, found.statistics["residual_standard_deviation"] * scatter)
+        except (TypeError, ValueError) as problem_of_shapes:  # a model that holds other columns of each row
+            raise several from problem_of_shapes
+        return {
+            "at": {name: {"value": float(grid[told.best]), "unit": unit.unit if unit else ""}},
+            "shrinkage": float(told.shrinkage[told.best]),
+            "standard_errors": told.standard_errors,
+        }
 
     def judged(self, found: Fit, trials: int) -> Fit:
         """The best of several models with its diagnostics (fit them with ``judged=False``)."""

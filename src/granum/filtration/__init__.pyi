@@ -95,6 +95,7 @@ from granum.filtration.equipment.thickening import (
 )
 from granum.filtration.flux_laws import (
     MeasuredFlux as MeasuredFlux,
+    MeasuredFluxPressure as MeasuredFluxPressure,
 )
 from granum.filtration.formulas.adsorption import (
     adsorption_rate_lodewyckx as adsorption_rate_lodewyckx,

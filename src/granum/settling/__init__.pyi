@@ -22,6 +22,10 @@ from granum.settling.equipment.api_separator import (
     SeparatorFigures as SeparatorFigures,
     Skimmed as Skimmed,
 )
+from granum.settling.equipment.carriers import (
+    Carried as Carried,
+    Carrier as Carrier,
+)
 from granum.settling.equipment.clarifier_thickener import (
     ClarifierThickener as ClarifierThickener,
     ClarifierThickenerFigures as ClarifierThickenerFigures,

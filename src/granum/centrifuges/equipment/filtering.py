@@ -322,8 +322,8 @@ class Peeler(SetCake):
         "use": Limit("share of the capacity in use", 0.0, 1.0, "dimensionless", "grace1953"),
         **machine_limits(diameter=5e-6, solids=(0.03, 0.5), effect=(300.0, 2000.0), layer=(0.02, 0.2)),
         "full": Limit("cake height over that of the rim", 0.0, 0.8, "dimensionless", "andritzpeeler"),
-        # about a twentieth in the source, of all that stays in the machine: twice that is our own number
-        "heel": Limit("volume of the heel over that of the basket", 0.0, 0.1, "dimensionless", "grimpeeler"),
+        # what typically stays in the machine, of which the heel is most
+        "heel": Limit("volume of the heel over that of the basket", 0.0, 0.05, "dimensionless", "grimpeeler"),
         "siphon": Limit("suction of the siphon", 0.0, 0.9, "bar", "perry2008, § 18"),
     }
 

@@ -23,6 +23,7 @@ from granum.core.kinds import (
     Length,
     PressureDrop,
     Ratio,
+    Speed,
     Time,
     VoidFraction,
     Within,
@@ -44,15 +45,32 @@ from granum.streams.utilities import AREA, PUMPED, compressed, pumped
 class BatchFilter(CakeFilter):
     """Abstract batch filter: one cake thickness, the times that follow from it, and the times that are
     set.
+
+    A pump that delivers no more than ``filtrate_flux_largest`` filters at that flux until the pressure drop
+    is reached, which then is held. Washing and draining are at the full pressure drop, for which the pump is
+    paid, and what is to be known of a compressible cake, too.
     """
 
     _: KW_ONLY
     deliquoring_time: Time = 0.0
     dead_time: Time = 1200.0
+    filtrate_flux_largest: Annotated[Speed, Within(1e-9)] | None = None
 
     utilities: ClassVar[Utilities] = (
         PUMPED | AREA | {"electric_power_compressor": Utility("wakeman2005; turton2018, ch. 11")}
     )
+
+    limits: ClassVar[Limits] = CakeFilter.limits | {
+        # the number is our own: at one the pressure is never reached
+        "pumped": Limit(
+            "share of the cake that is formed before the pump reaches its pressure (beyond, it never does)",
+            0.0,
+            0.99,
+            "dimensionless",
+            "geankoplis2003, § 14.2",
+            quiet=True,
+        )
+    }
 
     @property
     @abc.abstractmethod
@@ -67,6 +85,35 @@ class BatchFilter(CakeFilter):
     def loading(self, s: Slurry) -> Any:
         """Dry cake mass per area when the filter is full."""
         return self.full_thickness * (1.0 - self.void_fraction) * s.solid_density
+
+    def through(self, s: Slurry, flux: Any) -> Any:
+        """Resistance of cake and medium that the pressure drop drives a flux through."""
+        return self.pressure_drop / (s.dynamic_viscosity * flux)
+
+    def loading_of(self, s: Slurry, resistance: Any) -> Any:
+        """Dry cake mass per area whose cake has a resistance."""
+        return resistance / self.resistance
+
+    def pressed_time(self, s: Slurry, loading: Any) -> Any:
+        """Time to form a cake of a dry mass per area at the pressure drop from the start."""
+        return super().formation_time(s, loading)
+
+    def at_rate(self, s: Slurry, loading: Any) -> tuple[Any, Any]:
+        """Dry cake mass per area that the pump lays down before the pressure drop is reached, and the time
+        that takes: whatever the cake does under less pressure, it is as much as the slurry brings.
+        """
+        flux = self.filtrate_flux_largest
+        if flux is None:
+            return 0.0, 0.0
+        held = jnp.maximum(self.through(s, flux) - self.media_resistance(), 0.0)
+        first = jnp.minimum(self.loading_of(s, held), loading)
+        return first, first / (s.dry_cake_per_filtrate * flux)
+
+    def formation_time(self, s: Slurry, loading: Any) -> Any:
+        if self.filtrate_flux_largest is None:
+            return self.pressed_time(s, loading)
+        first, time = self.at_rate(s, loading)
+        return time + self.pressed_time(s, loading) - self.pressed_time(s, first)
 
     def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
         loading = self.loading(s)
@@ -83,7 +130,15 @@ class BatchFilter(CakeFilter):
             cycle,
             s.solid_flow * cycle / loading,
             None,  # the wash takes the time it asks for
+            None if self.filtrate_flux_largest is None else self.at_rate(s, loading)[1],
         )
+
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        found = super().measured(inside, outlets, figures, feed, wash)
+        loading = self.loading(inside.slurry)
+        return found | {"pumped": self.at_rate(inside.slurry, loading)[0] / loading}
 
     def drawn(
         self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
@@ -133,16 +188,30 @@ class FlatFilter(BatchFilter):
         if law is None:
             return s
         through = self.resistance * self.loading(s) + self.medium_resistance
-        at_one = dynamic_viscosity_permeable_christopher_middleman(
+        at_one = self.at_one(s)
+        last = (self.pressure_drop / (at_one * through)) ** (1.0 / law[1])
+        if self.filtrate_flux_largest is not None:
+            last = jnp.minimum(last, self.filtrate_flux_largest)
+        return s._replace(dynamic_viscosity=at_one * last ** (law[1] - 1.0))
+
+    def at_one(self, s: Slurry) -> Any:
+        """Viscosity of the thinning liquid in the cake at a flux of 1 m/s."""
+        law = self.law
+        assert law is not None
+        return dynamic_viscosity_permeable_christopher_middleman(
             1.0, self.permeability(s), self.void_fraction, *law
         )
-        last = (self.pressure_drop / (at_one * through)) ** (1.0 / law[1])
-        return s._replace(dynamic_viscosity=self.pressure_drop / (through * last))
 
-    def formation_time(self, s: Slurry, loading: Any) -> Any:
+    def through(self, s: Slurry, flux: Any) -> Any:
         law = self.law
         if law is None:
-            return super().formation_time(s, loading)
+            return super().through(s, flux)
+        return self.pressure_drop / (self.at_one(s) * flux ** law[1])
+
+    def pressed_time(self, s: Slurry, loading: Any) -> Any:
+        law = self.law
+        if law is None:
+            return super().pressed_time(s, loading)
         return filtration_time_power_law(
             loading / s.dry_cake_per_filtrate,
             1.0,
@@ -450,7 +519,12 @@ class CandleFilter(BatchFilter):
         r0, packed = self.candle_radius, (1.0 - self.void_fraction) * solid_density
         return jnp.sqrt(r0**2 + 2.0 * r0 * loading / packed) - r0
 
-    def formation_time(self, s: Slurry, loading: Any) -> Any:
+    def loading_of(self, s: Slurry, resistance: Any) -> Any:
+        r0, packed = self.candle_radius, (1.0 - self.void_fraction) * s.solid_density
+        turns = jnp.minimum(resistance / (self.resistance * packed * r0), 20.0)  # beyond, thicker than any
+        return 0.5 * packed * r0 * jnp.expm1(2.0 * turns)
+
+    def pressed_time(self, s: Slurry, loading: Any) -> Any:
         r0, packed = self.candle_radius, (1.0 - self.void_fraction) * s.solid_density
         r = r0 + self.thickness(loading, s.solid_density)
         cake = self.resistance * packed**2 * (0.5 * r**2 * jnp.log(r / r0) - 0.25 * (r**2 - r0**2))

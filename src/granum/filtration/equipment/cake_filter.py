@@ -64,6 +64,7 @@ class Plan(NamedTuple):
     cycle_time: Any
     area_required: Any
     wash_use: Any
+    pressure_rise_time: Any = None
 
 
 class CakeFigures(NamedTuple):
@@ -84,6 +85,7 @@ class CakeFigures(NamedTuple):
     cake_saturation: Fraction
     moisture_dry_basis: MoistureDryBasis
     dissolved_share: Fraction
+    pressure_rise_time: Time | None = None  # of a filter whose pump has a largest flow
 
 
 class Slurry(NamedTuple):
@@ -361,6 +363,7 @@ class CakeFilter(CakeMaker):
             cake_saturation=inside.saturation,
             moisture_dry_basis=cake.moisture_dry_basis,
             dissolved_share=self.dissolved(feed, cake),
+            pressure_rise_time=plan.pressure_rise_time,
         )
 
     def measured(

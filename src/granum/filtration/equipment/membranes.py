@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import equipment
-from granum.core.errors import CaseError
+from granum.core.errors import CaseError, InputError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -27,6 +27,7 @@ from granum.core.kinds import (
     Power,
     Pressure,
     PressureDrop,
+    Series,
     Speed,
     VolumeFlow,
     Within,
@@ -110,24 +111,34 @@ class OsmosisFigures(NamedTuple):
 
 
 class _Plant(Unit):
-    """Mixed stages of equal area in series; each is fed with the retentate of the one before."""
+    """Mixed stages in series, of equal area unless shares are given; each is fed with the retentate of the
+    one before.
+    """
 
     area: Area
     pressure_drop: PressureDrop
 
     utilities: ClassVar[Utilities] = PUMPED | AREA
 
+    def shares(self, count: int) -> Any:
+        """Share of the area in each stage."""
+        return jnp.full(count, 1.0 / count)
+
+    def areas(self, count: int) -> Any:
+        """Area of each stage, m²."""
+        return self.area * self.shares(count)
+
     def chain(self, feed: Stream, membrane: Membrane, count: int, fresh: Stream | None = None) -> Chain:
         """The stages one after the other, fresh solvent in equal parts into each."""
 
-        def stage(entering: Stream, _row: None) -> tuple[Stream, tuple[Any, ...]]:
+        def stage(entering: Stream, area: Any) -> tuple[Stream, tuple[Any, ...]]:
             if fresh is not None:
                 entering = entering + fresh.part(solid=1.0 / count, liquid=1.0 / count, gas=1.0 / count)
-            retentate, permeate, *found = staged(entering, membrane)
+            retentate, permeate, *found = staged(entering, membrane._replace(area=area))
             return retentate, (permeate.solid, permeate.liquid, matter(retentate, membrane), *found)
 
         start = jax.tree.map(lambda x: jnp.asarray(x, dtype=float), feed)
-        left, found = told_scan(stage, start, length=count)
+        left, found = told_scan(stage, start, self.areas(count), length=count)
         solid, liquid, held, flux, modulus, osmotic, driven_, closed = found
         card = type(self).card
         unsolved(jnp.all(driven_), card, reason=HELD)
@@ -194,7 +205,7 @@ class _Plant(Unit):
 
     def flux(self, chain: Chain) -> tuple[Any, Any, Any]:
         """Mean and last flux, and the permeate of all stages, m³/s."""
-        mean = jnp.mean(chain.flux)
+        mean = jnp.sum(chain.flux * self.shares(len(chain.flux)))
         return mean, chain.flux[-1], mean * self.area
 
 
@@ -224,8 +235,11 @@ def _dissolved(stream: Stream) -> Any:
     ),
 )
 class Ultrafiltration(_Plant):
-    """Feed-and-bleed stages of equal area: each circulates what it holds past its membrane and bleeds it to
-    the next; fresh solvent, if any, enters all stages in equal parts (diafiltration).
+    """Feed-and-bleed stages: each circulates what it holds past its membrane and bleeds it to the next; fresh
+    solvent, if any, enters all stages in equal parts (diafiltration).
+
+    Stages have equal areas unless ``area_shares`` are given, one for each stage; shares or areas, only their
+    proportions count.
 
     Solids are held back by size, dissolved matter by that of a compact molecule of its molar mass, which
     polarization lessens. Flux is that of the pressure less the osmotic pressure at the wall, or that at
@@ -244,6 +258,7 @@ class Ultrafiltration(_Plant):
     circulation_flow: VolumeFlow = eqx.field(kw_only=True, default=0.0)
     pressure_drop_channel: PressureDrop = eqx.field(kw_only=True, default=1e5)
     flux_law: Annotated[Any, Law("membrane_flux")] = eqx.field(kw_only=True, default=None)
+    area_shares: Annotated[PositiveNumber, Series("stages")] | None = eqx.field(kw_only=True, default=None)
 
     limits: ClassVar[Limits] = {
         "flux": Limit("flux of the membrane", 1.4e-6, 1.4e-4, "m/s", SOURCE),
@@ -252,9 +267,25 @@ class Ultrafiltration(_Plant):
         "once": Limit("permeate over the circulating flow", 0.0, 0.2, "dimensionless", SOURCE, quiet=True),
     }
 
+    def __check_init__(self) -> None:
+        if self.area_shares is not None and len(self.area_shares) != int(self.stage_count):
+            raise InputError(
+                _("'area_shares' has {given} values for {count} stages: give one for each.").format(
+                    given=len(self.area_shares), count=self.stage_count
+                ),
+                name="area_shares",
+            )
+
+    def shares(self, count: int) -> Any:
+        if self.area_shares is None:
+            return super().shares(count)
+        given = jnp.asarray(self.area_shares, dtype=float)
+        return given / jnp.sum(given)
+
     def membrane(self, feed: Stream) -> Membrane:
         """One stage."""
         m, count = feed.mixture, int(self.stage_count)
+        at = getattr(self.flux_law, "at", None)  # of a law that hangs on the pressure
         masses = [s.molar_mass for s in m.liquids]
         if not all(mass > 0.0 for mass in masses):
             raise CaseError(_("The membrane asks for the molar mass of every liquid of the mixture."))
@@ -271,7 +302,7 @@ class Ultrafiltration(_Plant):
             lambda _flux, modulus: (1.0 - held) * modulus / (held + (1.0 - held) * modulus),
             jnp.broadcast_to(through, (len(m.solids), through.size)),
             self.concentration_gel,
-            self.flux_law,
+            self.flux_law if at is None else at(self.pressure_drop),
         )
 
     def against(self, chain: Chain, count: int) -> tuple[Axis, list[Curve]]:
@@ -321,7 +352,7 @@ class Ultrafiltration(_Plant):
         solvent: Stream | None = None,
     ) -> dict[str, Any]:
         gel = self.concentration_gel
-        most = jnp.max(inside.flux) * self.area / int(self.stage_count)
+        most = jnp.max(inside.flux * self.areas(int(self.stage_count)))
         return {
             "flux": figures.filtrate_flux,
             "pressure": jnp.asarray(self.pressure_drop),

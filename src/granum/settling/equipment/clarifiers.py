@@ -12,6 +12,7 @@ from granum.core import equipment
 from granum.core.constants import DAY, HOUR
 from granum.core.kinds import Angle, Area, Length, PositiveNumber, Ratio, VolumeFlow
 from granum.core.limits import Limit
+from granum.settling.equipment.carriers import Carried
 from granum.settling.equipment.gravity import (
     DRAG,
     HINDRANCE,
@@ -52,7 +53,7 @@ def grade_efficiency(velocity: Any, critical: Any, tank_number: Any) -> Any:
     return jnp.where(velocity > 0, share, 0.0)
 
 
-class AbstractBasin(AbstractSettler):
+class AbstractBasin(Carried, AbstractSettler):
     """A settler whose critical velocity is its overflow rate: volume flow of the feed over a settling
     area.
     """
@@ -70,7 +71,7 @@ class AbstractBasin(AbstractSettler):
         return feed.slurry_volume_flow / self.settling_area()
 
     def velocities(self, feed: Stream) -> Any:
-        return class_velocities(feed, self.drag, self.hindrance)
+        return class_velocities(feed, self.drag, self.hindrance, carrier=self.carrier)
 
     def removed(self, velocity: Any, critical: Any) -> Any:
         return grade_efficiency(velocity, critical, self.tank_number)
@@ -83,6 +84,11 @@ class Clarifier(AbstractBasin):
     Ideal basin (Camp) unless a number of mixed tanks (Hazen) is given. The overflow rate is that of the whole
     feed, which is on the safe side of the true one by the underflow. Sizing and rating are the same
     statement: area times critical velocity is the feed's volume flow.
+
+    A liquid that does not follow Newton is given by its ``consistency``, viscosity at 1/s, with the
+    ``flow_index`` of a power law, the ``yield_stress`` of a Bingham liquid, or both. Grains then fall as
+    single spheres in it at rest, whatever the flow thins, and hinder one another as in a liquid of Newton
+    at the same Reynolds number: our own simplification.
     """
 
     area: Area

@@ -15,6 +15,7 @@ from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.hindered import hindrance_richardson_zaki
 from granum.particles.formulas.numbers import reynolds_number
 from granum.particles.formulas.terminal import terminal_velocity
+from granum.settling.equipment.carriers import Carrier
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
@@ -60,20 +61,27 @@ class Settled(NamedTuple):
     floated: Any
 
 
-def class_velocities(feed: Stream, drag: Any, hindrance: Any, effect: Any = 1.0) -> Any:
+def class_velocities(
+    feed: Stream, drag: Any, hindrance: Any, effect: Any = 1.0, carrier: Carrier | None = None
+) -> Any:
     """Hindered settling velocity of each species and size class, m/s; negative for what rises.
 
     In a field of so many times gravity (``effect``) the velocity is told per unit of it, with the drag of the
-    Reynolds number that the particle has there.
+    Reynolds number that the particle has there. A ``carrier`` takes the place of the liquid's viscosity and
+    of the drag.
     """
     m = feed.mixture
     density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
     size = jnp.asarray(m.sizes) + 0.0 * density
     liquid = feed.liquid_density, feed.liquid_viscosity
-    alone = terminal_velocity(size, density, *liquid, effect * STANDARD_GRAVITY, drag)
     there = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim))) > 0
+    if carrier is None:
+        alone = terminal_velocity(size, density, *liquid, effect * STANDARD_GRAVITY, drag)
+        reynolds = reynolds_number(size, jnp.abs(alone), *liquid)
+    else:
+        alone, reynolds = carrier.falling(size, density, feed.liquid_density, there)
     # what is not there shall not be told to lie outside the range of a law
-    reynolds = jnp.where(there, reynolds_number(size, jnp.abs(alone), *liquid), 1.0)
+    reynolds = jnp.where(there, reynolds, 1.0)
     crowd = jnp.clip(feed.solids_volume_fraction, 1e-12, 1.0 - 1e-9)
     return alone / effect * hindrance(crowd, reynolds)
 

@@ -16,6 +16,7 @@ from granum.core import lab_test
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
+    KINDS,
     Concentration,
     Distance,
     Length,
@@ -26,7 +27,7 @@ from granum.core.kinds import (
     Time,
     VolumePerMass,
 )
-from granum.core.units import format_number
+from granum.core.units import format_number, show
 from granum.estimation import Estimate, Fit, LabTest
 from granum.estimation.results import t_reach
 from granum.settling.flux import limiting_flux_underflow
@@ -40,6 +41,7 @@ RESAMPLES = 200
 FAR = 20.0
 # scatter, in reading errors, up to which a velocity law alone accounts for points taken for compression
 EXPLAINED = 2.0
+LOWEST, NARROWEST = 0.3, 100.0  # m of a cylinder, and its diameter over that of a particle: the course
 
 
 class FluxCurve(NamedTuple):
@@ -176,7 +178,8 @@ class BatchTest(LabTest):
     points too). The chosen velocity law is fitted to the curve itself, by Kynch's closed solution, up to the
     compression point. With an underflow the unit area comes both ways: from the law (Coe and Clevenger's
     greatest) and from the curve (Talmage and Fitch). ``flux_curve`` gives the tangent construction with a
-    band. One curve knows its law only from the initial concentration to that at the compression point.
+    band. One curve knows its law only from the initial concentration to that at the compression point. A
+    cylinder lower than 30 cm, or narrower than a hundred particles where both diameters are given, is told.
     """
 
     time: Annotated[Time, Series("points")]
@@ -185,6 +188,8 @@ class BatchTest(LabTest):
     initial_height: Length | None = None
     underflow_concentration: Concentration | None = None
     velocity_function: VelocityFunction = "vesilind"
+    cylinder_diameter: Length | None = None
+    particle_diameter: Length | None = None
 
     estimates: ClassVar = {
         "vesilind_velocity": Speed,
@@ -283,8 +288,34 @@ class BatchTest(LabTest):
                     ).format(miss=format_number(1e3 * miss)),
                 )
             )
+        flags += self._cylinder(float(c.initial_height))
         derived = {**found.derived, **self._derived(c)}
         return replace(found, derived=derived, flags=flags + found.flags + self._disagreement(derived))
+
+    def _cylinder(self, height: float) -> list[dict[str, Any]]:
+        """What is told of a cylinder that is too low, or too narrow for its particles."""
+        told, wide, grain = [], self.cylinder_diameter, self.particle_diameter
+        if height < LOWEST * (1.0 - 1e-6):
+            told.append(
+                self.note(
+                    "low cylinder",
+                    _(
+                        "The cylinder stands {height} high: below some 30 cm sludge settles "
+                        "otherwise than in a tank."
+                    ).format(height=show(height, KINDS["Length"])),
+                )
+            )
+        if wide is not None and grain is not None and wide < NARROWEST * grain:
+            told.append(
+                self.note(
+                    "narrow cylinder",
+                    _(
+                        "The cylinder is {ratio} times as wide as its particles: below a hundred the wall "
+                        "holds them up."
+                    ).format(ratio=format_number(float(wide) / float(grain), 3)),
+                )
+            )
+        return told
 
     def _zones_and_law(self) -> tuple[Curve, Fit]:
         """Two exponentials follow any falling-rate curve better than one: the law fitted to all points
