@@ -42,8 +42,8 @@ def _next(
 ) -> Any:
     """The next task; while none is there, what every task may need is read, a process that has done its first
     warms up, since somebody uses the page, what tracing made is written, and what compiling took and does not
-    need any more, several hundred megabytes at times, goes back to the system; in the end what was compiled as
-    well, if it is much.
+    need any more, several hundred megabytes at times, goes back to the system; in the end what was compiled
+    goes, too, if it is much.
     """
     while tasks.empty():
         if next(preparing, DONE) is DONE:
