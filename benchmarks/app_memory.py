@@ -2,9 +2,9 @@
 
     python -m benchmarks.app_memory --requests 5000 [--cards 60]
 
-Opens each formula, procedure and chart with the values its page begins with. The server must stay below
-600 MB and each of its worker processes below 400 MB once it has rested; of the further requests, the second
-half must not add more than a twentieth.
+Opens each formula, procedure and chart with the values its page begins with, and solves and draws each piece
+of equipment. The server must stay below 600 MB and each of its worker processes below 400 MB once it has
+rested; of the further requests, the second half must not add more than a twentieth.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from granum.app.wear import resident
 
 SERVER, WORKER = 600e6, 400e6  # bytes
 GROWTH = 0.05
+OPENED = ("formula", "procedure", "chart", "equipment")
 
 
 def children(process: int) -> list[int]:
@@ -43,8 +44,17 @@ def first_values(card: dict[str, Any]) -> dict[str, str] | None:
     return None if any(p["required"] and p["name"] not in values for p in card["parameters"]) else values
 
 
-def visit(client: httpx.Client, key: str, opened: dict[str, tuple[str, dict[str, str]]]) -> None:
-    """Open a card as its page does."""
+def visit(
+    client: httpx.Client, key: str, opened: dict[str, tuple[str, dict[str, str]]], equipment: bool
+) -> None:
+    """Open a card as its page does; equipment as after an edit, since its page opens with an answer that was
+    kept.
+    """
+    if equipment:
+        case = client.post(f"/api/alone/{key}", json={}).json()["case"] + "\n"
+        for task in ("run", "inside"):
+            client.post(f"/api/{task}", json={"case": case})
+        return
     card = client.get(f"/api/cards/{key}").json()
     values = first_values(card)
     if values is not None:
@@ -62,12 +72,16 @@ def figures(process: int) -> dict[str, str]:
 def soak(client: httpx.Client, process: int, cards: int, requests: int) -> int:
     """The whole visit; gives the exit status."""
     listed = client.get("/api/cards").json()["cards"]
-    keys = [c["card"] for c in listed if c["sort"] in ("formula", "procedure", "chart")]
+    keys = [c["card"] for c in listed if c["sort"] in OPENED]
+    equipment = {c["card"] for c in listed if c["sort"] == "equipment"}
     opened: dict[str, tuple[str, dict[str, str]]] = {}
-    most, start = 0.0, time.perf_counter()
+    random.Random(2).shuffle(keys)  # as people come by, not domain after domain
+    most, worked, start = 0.0, [0.0], time.perf_counter()
     for count, key in enumerate(keys[: cards or None], 1):
-        visit(client, key, opened)
+        visit(client, key, opened, key in equipment)
         most = max(most, resident(process))
+        if key in equipment:
+            worked.append(max((resident(child) for child in children(process)), default=0.0))
         if count % 100 == 0:
             print(f"  {count} cards, {time.perf_counter() - start:.0f} s: {figures(process)}", flush=True)
     tell(
@@ -75,7 +89,13 @@ def soak(client: httpx.Client, process: int, cards: int, requests: int) -> int:
             "every card opened once",
             time.perf_counter() - start,
             kind="server",
-            figures={"cards": str(count), "most": f"{most / 1e6:.0f} MB"} | figures(process),
+            figures={
+                "cards": str(count),
+                "most": f"{most / 1e6:.0f} MB",
+                "of a worker after work, median and most": f"{sorted(worked)[len(worked) // 2] / 1e6:.0f}, "
+                f"{max(worked) / 1e6:.0f} MB",
+            }
+            | figures(process),
         )
     )
     draw, sizes = random.Random(1), []

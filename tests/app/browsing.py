@@ -5,10 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from pathlib import Path
+from importlib.resources import files
 from typing import Any
 
-import axe_selenium_python.axe
 import pytest
 from docs import headless
 from selenium import webdriver
@@ -22,6 +21,7 @@ PATIENCE = 240.0  # seconds: a first calculation compiles, and continuous integr
 # once a night
 MOSTLY_FRENCH = [pytest.param("en", marks=pytest.mark.long), "fr"]
 SCRIPT_PATIENCE = 60.0
+AXE = files("axe_playwright_python") / "axe.min.js"
 SETTLED = """
     const done = arguments[0];
     const ready = () => document.querySelector('h1') && !document.querySelector('[aria-busy=true]');
@@ -182,7 +182,7 @@ class Page:
         assert self.browser.execute_script("return document.documentElement.scrollWidth <= innerWidth"), (
             "the page is wider than the window"
         )
-        self.browser.execute_script(Path(axe_selenium_python.axe._DEFAULT_SCRIPT).read_text(encoding="utf-8"))
+        self.browser.execute_script(AXE.read_text(encoding="utf-8"))
         found = self.browser.execute_async_script(
             # what passes is not collected: twice as quick, and the same is found
             "axe.run({rules: {region: {enabled: false}}, resultTypes: ['violations'], preload: false})"

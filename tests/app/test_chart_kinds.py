@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from selenium.webdriver.common.keys import Keys
-from tests.app.browsing import Page
+from tests.app.browsing import Page, resize
 
 INDEX = Path(str(files("granum") / "core" / "index.csv"))
 CHARTS = [
@@ -102,6 +102,10 @@ def test_states_of_humid_gas_are_a_table(page: Page, language: str, add: str) ->
     assert all(heads), "every column has a name for those who listen"
     regions = [e.get_attribute("aria-label") for e in page.all("section[aria-label], [role=region]")]
     assert len(set(regions)) == len(regions), "no two landmarks have one name"
+    page.check()
+    resize(page, 390)
+    table = page.one("[role=region]:has(.states)")
+    assert table.get_property("scrollWidth") <= table.get_property("clientWidth"), "on a phone they are lists"
     page.check()
 
 

@@ -358,6 +358,24 @@ def test_a_worker_at_rest_gives_back_what_it_does_not_need(monkeypatch: pytest.M
     assert given == ["warm", "memory"]
 
 
+def test_a_worker_that_rests_long_drops_what_it_has_compiled_if_it_is_much(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    asked: list[float] = []
+
+    def forget(much: float, _more: float) -> None:
+        asked.append(much)
+        waiting.put("the next")
+
+    monkeypatch.setattr(worker, "REST", 0.01)
+    monkeypatch.setattr(worker, "LONG_REST", 0.01)
+    monkeypatch.setattr(worker, "give_back", lambda: None)
+    monkeypatch.setattr(worker, "forget_when_worn", forget)
+    assert worker._next(waiting, iter(()), None) == "the next"
+    assert asked == [wear.IDLE_MEMORY], "the server replaces what holds more than that"
+
+
 def test_a_task_does_not_wait_until_a_new_worker_has_read_everything() -> None:
     waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
     read: list[int] = []

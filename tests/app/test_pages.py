@@ -28,6 +28,7 @@ PLACES = {
     "select": "select",
     "exercises": "exercises/buchner-to-filter",
     "questions": "exercises/quizzes",
+    "reading": "read/handbook/particles",
 }
 
 
@@ -57,6 +58,7 @@ def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -
     page.write("#field-particle_diameter", "-3")
     page.until(lambda: page.all("[aria-invalid=true]") and page.text(".quantity .out"))
     assert not page.fresh(), "the result of other inputs is grey"
+    page.one("header .tools button:last-child").click()  # light or dark: nothing is read anew or forgotten
     page.button("Undo" if language == "en" else "Annuler").click()  # what was typed in one go is one step
     page.until(lambda: not page.all("[aria-invalid=true]"))
     assert page.one("#field-particle_diameter").get_attribute("value") == "85"
@@ -467,6 +469,13 @@ HELD = """
 
 
 def test_what_the_server_is_doing_is_said_while_the_page_waits(page: Page) -> None:
+    page.open("home")
+    page.browser.execute_script(HELD, "/api/cards/")
+    page.browser.execute_script("location.hash = '#/calculate/particles.drag_force'")
+    page.says("main [data-working]", "The card is on its way…")
+    assert page.all("main [data-working] progress")
+    page.browser.execute_script("window.release()")
+    page.settle()
     for place, path, start in (
         ("charts/particles.drag_chart", "/api/chart/", lambda: page.button("Undo").click()),
         (f"lines/{quote(CASE, safe='')}", "/api/run", lambda: page.button("Solve").click()),

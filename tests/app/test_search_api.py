@@ -212,6 +212,8 @@ def test_every_page_of_the_documentation_can_be_read(name: str) -> None:
     assert found["title"]
     assert "<h1>" in found["html"]
     assert "<script" not in found["html"]
+    tables = re.findall(r'role="region" aria-label="([^"]+)"', found["html"])
+    assert len(set(tables)) == found["html"].count("<table>"), "each may be wide, and is called differently"
 
 
 def test_there_are_lines_and_pages_to_find() -> None:

@@ -70,6 +70,8 @@ MEANT = {
     "minimum fluidisation velocity": "fluidization.minimum_fluidization_velocity_babu",
     "crystalliser": "crystallization.batch_crystallizer",
     "terminal velcity": "particles.terminal_velocity",
+    "Stockes": "particles.trajectory_stokes|particles.terminal_velocity_stokes",
+    "stockés": "drying.grain_bin",
     "thickner": "settling.thickener",
     "crystalizer": "crystallization.batch_crystallizer",
     "psycrometric chart": "humid_gas.psychrometric_chart",

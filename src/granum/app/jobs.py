@@ -34,7 +34,7 @@ from granum.core.i18n import _, current_language, language
 from granum.core.units import unit_system
 
 LOOK = 8  # jobs after which the memory of a process is looked at
-REST = 120.0  # seconds without a job after which a process that holds much memory is replaced
+REST = 30.0  # seconds without a job after which a process that still holds much memory is replaced
 GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
 # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
 LONG = 6.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import itertools
 import re
 from functools import cache
 from typing import Any, NamedTuple
@@ -75,6 +76,13 @@ def _as_code(text: str) -> str:
     return f'<pre><code class="language-python">{html.escape(text)}\n</code></pre>'
 
 
+def _wide(head: str, number: int) -> str:
+    """The beginning of a table that may be wider than the page, told apart from the others by its columns."""
+    columns = ", ".join(re.sub("<[^>]*>", "", cell) for cell in re.findall("<th.*?>(.*?)</th>", head))
+    label = _("table {number}: {columns}").format(number=number, columns=columns)
+    return f'<div class="wide" tabindex="0" role="region" aria-label="{label}"><table>'
+
+
 def as_html(name: str) -> dict[str, Any]:
     """A page for reading: ``{"title", "language", "whole", "html"}``, whole where the site has no more."""
     found = page(name)
@@ -109,7 +117,8 @@ def as_html(name: str) -> dict[str, Any]:
         "<p>\ue004(\\w+)\ue003</p>", rf'<div data-drawn="{found.language}/{domain}/\1"></div>', shown
     )
     shown = re.sub("<p>\ue005(\\w+)\ue003</p>", lambda m: _as_code(chapter_code(domain, m[1])), shown)
-    shown = shown.replace("<table>", '<div class="wide" tabindex="0" role="region"><table>')
+    count = itertools.count(1)
+    shown = re.sub("<table>(?=(.*?)</tr>)", lambda m: _wide(m[1], next(count)), shown, flags=re.DOTALL)
     return {
         "title": html.unescape(found.title),
         "language": found.language,

@@ -15,10 +15,11 @@ MOST_MAPS = 20_000
 MOST_MEMORY = 2_500_000_000  # bytes
 # bytes beyond which the server drops compiled code, and again when so much has been added since
 MUCH, MORE = 450_000_000, 40_000_000
-# and a process with long work, before work of another sort
-CROWDED, MORE_CROWDED = 600_000_000, 100_000_000
+# and a process with long work, before work of another sort: to make ready anew what is kept in files takes a
+# second at most
+CROWDED, MORE_CROWDED = 400_000_000, 40_000_000
 BURSTING = 1_200_000_000  # bytes beyond which it does so even before work that it knows
-# bytes beyond which a process that has nothing to do gives way to a new one
+# bytes beyond which a process that has nothing to do drops compiled code, and then gives way to a new one
 IDLE_MEMORY = 400_000_000
 _forgetting = threading.Lock()
 _kept = 0.0

@@ -20,12 +20,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from granum.app.wear import BURSTING, CROWDED, MORE_CROWDED, forget_when_worn, give_back
+from granum.app.wear import BURSTING, CROWDED, IDLE_MEMORY, MORE_CROWDED, forget_when_worn, give_back
 from granum.core import kept
 from granum.core.garbage import collect_seldom
 
 DONE = object()
 REST = 1.0  # seconds without a task after which programs are written and free memory is given back
+LONG_REST = 15.0  # and after which compiled code is dropped, if there is much of it
 
 
 def _limit(megabytes: int) -> None:
@@ -41,7 +42,8 @@ def _next(
 ) -> Any:
     """The next task; while none is there, what every task may need is read, a process that has done its first
     warms up, since somebody uses the page, what tracing made is written, and what compiling took and does not
-    need any more, several hundred megabytes at times, goes back to the system.
+    need any more, several hundred megabytes at times, goes back to the system; in the end what was compiled
+    goes, too, if it is much.
     """
     while tasks.empty():
         if next(preparing, DONE) is DONE:
@@ -53,6 +55,10 @@ def _next(
             warm_up()
         kept.store()
         give_back()
+    try:
+        return tasks.get(timeout=LONG_REST)
+    except queue.Empty:
+        forget_when_worn(IDLE_MEMORY, MORE_CROWDED)
         return tasks.get()
 
 

@@ -19,11 +19,12 @@ from granum.core.glossary import Term, glossary, quantity_in, term
 from granum.core.i18n import LANGUAGES, current_language
 from granum.core.index import Entry, entries
 from granum.core.sources import authors_of
-from granum.core.words import root, tokens
+from granum.core.words import plain, root, tokens
 
 TITLE, CALLED, NAME, SYMBOL, AUTHOR, GIVES, TEXT, DOMAIN = 10.0, 9.0, 8.0, 7.5, 5.0, 4.0, 2.0, 1.5
 NAMES = SYMBOL  # a phrase of this weight or more is a name: the more of it was asked for, the better
-EXACT, BEGINS, ROOT, SLIP = 1.0, 0.8, 0.75, 0.55
+EXACT, ALL_BUT_A_NAME, BEGINS, ROOT, SLIP = 1.0, 0.9, 0.8, 0.75, 0.55
+LEAST_NAME = 4  # letters beyond which a name is looked for behind a slip
 LEAST = 0.2  # of the score of the best: what fits worse is not told
 SHORT_WORD, LONG_WORD = 4, 8  # letters from which one slip, and two, are forgiven
 SORTS = {"equipment": 1.06, "procedure": 1.04, "lab test": 1.03, "chart": 1.0, "law": 0.85}
@@ -31,6 +32,7 @@ BARE = 1.05
 _LATEX = re.compile(
     r"\\(?:mathrm|mathit|text|bar|dot|hat|tilde|overline|boldsymbol|,|max|min)|[\s{}_^,()\[\]]"
 )
+_ALPHABETIC = re.compile(r"[a-z]+")
 
 
 @dataclass(frozen=True)
@@ -142,8 +144,10 @@ class Finder:
         for word in self._sorted:
             self._roots.setdefault(root(word), []).append(word)
 
-    def _known(self, word: str) -> dict[str, float]:
-        """Words of the documents that a typed word may mean, and how surely."""
+    def _known(self, word: str, typed: str) -> dict[str, float]:
+        """Words of the documents that a word may mean, and how surely; as it was ``typed``, it may be all but
+        a name that only looks like a plural (Stockes).
+        """
         found = {other: ROOT for other in self._roots.get(root(word), ()) if len(word) > 3}
         begin = bisect.bisect_left(self._sorted, word) if len(word) > 2 else len(self._sorted)
         for other in self._sorted[begin : bisect.bisect_left(self._sorted, word + "\uffff")]:
@@ -153,6 +157,8 @@ class Finder:
         if self._named.isdisjoint(found):  # what stands in descriptions alone may be a slip for a name too
             slipped = self._slipped(word).items()
             found |= {other: sure for other, sure in slipped if not found or other in self._named}
+        if typed not in self._places and word not in self._named:
+            found |= dict.fromkeys(_all_but_a_name(typed) & self._places.keys(), ALL_BUT_A_NAME)
         return found
 
     def _slipped(self, word: str) -> dict[str, float]:
@@ -170,7 +176,8 @@ class Finder:
 
     def search(self, text: str, limit: int | None = None) -> list[Hit]:
         """What is meant by a text, the best first; where nothing has all its words, what has most of them."""
-        known = [self._known(word) for word in dict.fromkeys(tokens(text))]
+        typed = {tokens(word): word for word in text.lower().split()}
+        known = [self._known(word, typed.get((word,), word)) for word in dict.fromkeys(tokens(text))]
         surely: dict[int, list[float]] = {}  # of each phrase that has one of the words, by word
         for place, words in enumerate(known):
             for word, sure in words.items():
@@ -213,6 +220,28 @@ def _best(told: Iterable[tuple[float, list[float], float]], rare: Sequence[float
         weight * _weighed(row, rare) * (0.55 + 0.45 * said if weight >= NAMES else 1.0)
         for weight, row, said in told
     )
+
+
+@cache
+def _names_like_plurals() -> dict[str, str]:
+    """Names of authors that end like plurals, with the word by which they are compared."""
+    names = {
+        name for entry in entries().values() for name in _ALPHABETIC.findall(plain(authors_of(entry.source)))
+    }
+    words = {name: tokens(name) for name in names if len(name) > LEAST_NAME}
+    return {name: said[0] for name, said in words.items() if said and said[0] != name}
+
+
+def _all_but_a_name(typed: str) -> set[str]:
+    """Words of the names from which one slip of the finger makes what was typed."""
+    from rapidfuzz import process
+    from rapidfuzz.distance import OSA
+
+    known = _names_like_plurals()
+    return {
+        known[name]
+        for name, _slips, _ in process.extract(typed, known.keys(), scorer=OSA.distance, score_cutoff=1)
+    }
 
 
 # -- the cards

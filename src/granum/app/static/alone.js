@@ -1,5 +1,6 @@
 // A piece of equipment alone: its parameters and what enters, solved as a line of its own; handed to Lines when wanted.
 import {
+  Awaited,
   colon,
   html,
   t,
@@ -34,7 +35,7 @@ export function Desk({ state }) {
   if (card?.sort !== 'equipment' && (cards || !state.key))
     return html`<${Calculate} key="calculate" state=${state} keep=${SHOWN} />`;
   return html`<main class="three alone" id="main"><${Finder} page="calculate" current=${state.key} cards=${cards} />
-    ${card ? html`<${Work} key=${`${state.key} ${settings.language} ${settings.units} ${state.visit}`} card=${card} given=${state.values} />` : html`<section aria-busy="true"><p class="dim">${t('The list of cards is on its way…')}</p></section><section />`}</main>`;
+    ${card ? html`<${Work} key=${`${state.key} ${settings.language} ${settings.units} ${state.visit}`} card=${card} given=${state.values} />` : html`<section aria-label=${t('Enter')}><${Awaited} text=${t('The list of cards is on its way…')} /></section><section />`}</main>`;
 }
 
 function Work({ card, given }) {

@@ -101,7 +101,7 @@ function App() {
       <${Seek} />
       <div class="tools"><button lang=${other} onClick=${() => set('language', other)}>${other === 'fr' ? 'Français' : 'English'}</button>
         <button aria-label=${t('Units: SI or customary of the United States')} title=${t('Units: SI or customary of the United States')} onClick=${() => set('units', settings.units === 'field' ? 'si' : 'field')}>${settings.units === 'field' ? 'ft·lb' : 'SI'}</button>
-        <button aria-label=${t('Light or dark')} onClick=${() => set('theme', settings.theme === 'dark' ? 'light' : 'dark')}>◐</button></div></header>
+        <button aria-label=${t('Light or dark')} onClick=${() => keep('theme', settings.theme === 'dark' ? 'light' : 'dark')}>◐</button></div></header>
     ${away && html`<p class="gone" role="alert">${t('Granum no longer answers. Restart it in the terminal; this page reconnects by itself. What you typed is kept.')}</p>`}
     ${page[2](state)}`;
 }

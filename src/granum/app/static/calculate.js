@@ -1,5 +1,6 @@
 // Calculate: find a card, enter values, believe the result. Up to three cases side by side.
 import {
+  Awaited,
   html,
   t,
   ask,
@@ -48,7 +49,7 @@ export function Calculate({
         ? html`<${NoCard} heading=${t({ charts: 'Charts', select: 'Select' }[page] ?? 'Calculate')} error=${error} />`
         : ready
           ? html`<${Work} key=${`${key} ${settings.language} ${settings.units} ${state.visit}`} page=${page} card=${card} given=${state.values} />`
-          : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`
+          : html`<section aria-label=${t('Enter')}><${Awaited} text=${key ? t('The card is on its way…') : t('The list of cards is on its way…')} /></section><section />`
     }</main>`;
 }
 

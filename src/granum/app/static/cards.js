@@ -1,5 +1,5 @@
 // The left column: cards grouped by domain in the order of the house, laws of one family together; its own search is the one of every page.
-import { html, t, ask, link, useAnswer, useState, useEffect, useRef, settings } from './core.js';
+import { Awaited, html, t, ask, link, useAnswer, useState, useEffect, useRef, settings } from './core.js';
 import { english } from './strings.fr.js';
 
 const MANY = 3; // members from which a family is folded
@@ -75,7 +75,7 @@ export function Finder({ page, current, cards }) {
   }, [current, Boolean(cards)]);
   useEffect(() => oneStop(list.current));
   if (!cards)
-    return html`<section class="find" aria-busy="true" aria-label=${t('Find')}><p class="dim">${t('The list of cards is on its way…')}</p></section>`;
+    return html`<section class="find" aria-label=${t('Find')}><${Awaited} text=${t('The list of cards is on its way…')} /></section>`;
   const here = new Set(cards.map((c) => c.card));
   const hits = asked && found.data ? found.data.cards.filter((c) => here.has(c.card)) : null;
   return html`<section class="find" aria-label=${t('Find')}>

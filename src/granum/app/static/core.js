@@ -285,14 +285,15 @@ export function useCopying() {
 }
 
 /**
- * Shown once something takes longer than a second: what the server is doing, how long already, and a way to stop it.
- * `job` gives the name of the request waited for; without one, `share` and `text` say how far it is.
+ * Shown once something takes longer than a second, or from another one on: what the server is doing, how long already,
+ * and a way to stop it. `job` gives the name of the request waited for; without one, `share` and `text` say how far it is.
  */
 export function Working({
   busy,
   cancel,
   job,
   share = 0,
+  from = 1,
   text = t('Working… what is asked for the first time takes a little longer.'),
 }) {
   const [seconds, setSeconds] = useState(0);
@@ -319,9 +320,13 @@ export function Working({
     const timer = setInterval(look, 500);
     return () => clearInterval(timer);
   }, [busy]);
-  if (!busy || seconds < 1) return null;
-  return html`<div class="row" data-working><progress max="1" value=${share || null} aria-label=${t('Progress')}></progress> <span class="small"><span data-note>${note ? note[0].toUpperCase() + note.slice(1) : text}</span> · ${share ? `${Math.round(100 * share)} % · ` : ''}${t('{seconds} s', { seconds })}</span> <button class="button" onClick=${cancel}>${t('Cancel')}</button></div>`;
+  if (!busy || seconds < from) return null;
+  return html`<div class="row" data-working><progress max="1" value=${share || null} aria-label=${t('Progress')}></progress> <span class="small"><span data-note>${note ? note[0].toUpperCase() + note.slice(1) : text}</span>${seconds > 0 ? ' · ' : ''}${share ? `${Math.round(100 * share)} % · ` : ''}${seconds > 0 ? t('{seconds} s', { seconds }) : ''}</span>${cancel && html` <button class="button" onClick=${cancel}>${t('Cancel')}</button>`}</div>`;
 }
+
+/** A place that is empty until what belongs there has come: what that is, and since when it is awaited. */
+export const Awaited = ({ text, job }) =>
+  html`<div aria-busy="true"><${Working} busy=${true} from=${0} text=${text} job=${job} /></div>`;
 
 /** A file made here, handed to the person in front of the page. */
 export function download(name, text, type) {

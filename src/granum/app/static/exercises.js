@@ -1,5 +1,5 @@
 // Exercises: statement, numbers, an answer of one's own for each step, marked at once; hint, then answer; quizzes under them.
-import { html, t, ask, link, download, useAnswer, useState, settings, Working } from './core.js';
+import { Awaited, html, t, ask, link, download, useAnswer, useState, settings, Working } from './core.js';
 import { Exam } from './exam.js';
 import { Indexed } from './indices.js';
 import { Quiz } from './quiz.js';
@@ -12,7 +12,7 @@ export function Exercises({ state }) {
   if (error)
     return html`<main class="page" id="main"><h1>${t('Exercises')}</h1><p class="message out">${error.message}</p></main>`;
   if (!data)
-    return html`<main class="page" id="main" aria-busy="true"><h1>${t('Exercises')}</h1><p class="dim">${t('Loading…')}</p></main>`;
+    return html`<main class="page" id="main"><h1>${t('Exercises')}</h1><${Awaited} text=${t('The list of exercises is on its way…')} /></main>`;
   const all = data.domains.flatMap((d) => d.exercises);
   const page = ['quizzes', 'exam', 'sections'].includes(state.key) ? state.key : '';
   const current = page || (all.find((e) => e.id === state.key) || all[0]).id;
@@ -75,7 +75,7 @@ function Exercise({ name, seed, progress }) {
     location.hash = link('exercises', name, { seed: 1 + Math.floor(Math.random() * 999999) });
   };
   if (!exercise)
-    return html`<section aria-busy=${String(pending)} aria-label=${t('Worked examples')}>${error ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim">${t('Loading…')}</p>`}<${Working} busy=${pending} cancel=${cancel} job=${job} /></section>`;
+    return html`<section aria-busy=${String(pending)} aria-label=${t('Worked examples')}>${error ? html`<p class="message out" role="alert">${error.message}</p>` : html`<${Working} busy=${pending} from=${0} text=${t('The exercise is worked out…')} cancel=${cancel} job=${job} />`}</section>`;
   return html`<section aria-label=${t('Worked examples')}><h1>${exercise.title}</h1><p class="statement"><${Indexed} text=${exercise.statement} /></p>
     ${exercise.fresh && html`<div class="row"><button class="button" onClick=${fresh}>${t('Other numbers')}</button>${seed !== null && html` <a href=${link('exercises', name)}>${t('Back to the first numbers')}</a>`}</div>`}
     <ol class="steps">${exercise.steps.map((step, i) => html`<${Step} key=${i} name=${name} place=${i} seed=${seed} step=${step} record=${progress[name]?.[i]} />`)}</ol>

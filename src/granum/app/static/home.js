@@ -1,5 +1,5 @@
 // The start: tasks in words, what was open lately, and the domains with all they hold.
-import { html, t, link, settings } from './core.js';
+import { Awaited, html, t, link, settings } from './core.js';
 import { entriesOf, order, useCards } from './cards.js';
 import { hrefOf, placeOf } from './seek.js';
 import { recent } from './recent.js';
@@ -74,7 +74,7 @@ export function Home({ state }) {
     )}</ul>
     ${lately.length > 0 && html`<h2>${t('Open lately')}</h2><ul class="plain" data-recent>${lately.map((one) => html`<li><a href=${one.hash}>${one.title}</a> <span class="small dim">${t(one.name)}</span></li>`)}</ul>`}
     <h2>${t('By domain')}</h2>
-    <ul class="tiles small" aria-label=${t('By domain')} aria-busy=${String(!cards)}>${domains.map(
+    <ul class="tiles small" aria-label=${t('By domain')} aria-busy=${String(!cards)}>${!cards && html`<li><${Awaited} text=${t('The list of cards is on its way…')} /></li>`}${domains.map(
       ([domain, count]) =>
         html`<li><a class="tile" href=${link('home', domain)}><strong>${t(domain)}</strong><span class="small dim">${t('{count} cards', { count })}</span></a></li>`,
     )}</ul></main>`;
@@ -85,7 +85,7 @@ function Domain({ domain, cards }) {
   const own = (cards || [])
     .filter((c) => c.domain === domain)
     .toSorted((a, b) => a.title.localeCompare(b.title, settings.language));
-  return html`<main class="page home" id="main" aria-busy=${String(!cards)}><p class="small"><a href=${link('home')}>${t('Start')}</a></p><h1>${t(domain)}</h1>
+  return html`<main class="page home" id="main" aria-busy=${String(!cards)}><p class="small"><a href=${link('home')}>${t('Start')}</a></p><h1>${t(domain)}</h1>${!cards && html`<${Awaited} text=${t('The list of cards is on its way…')} />`}
     ${cards && !own.length && html`<p class="message dim">${t('Nothing found.')}</p>`}
     ${SORTS.map(([sort, label]) => {
       const list = own.filter((c) => c.sort === sort);
@@ -111,5 +111,5 @@ export function Forward({ state }) {
     const { page, key } = placeOf({ sort: card.sort, key: card.card });
     setTimeout(() => location.replace(link(page, key)));
   }
-  return html`<main class="page" id="main" aria-busy=${String(!cards || Boolean(card))}><h1>${t('Find')}</h1>${cards && !card && html`<p class="message dim">${t('Nothing found.')}</p>`}</main>`;
+  return html`<main class="page" id="main" aria-busy=${String(!cards || Boolean(card))}><h1>${t('Find')}</h1>${!cards && html`<${Awaited} text=${t('The list of cards is on its way…')} />`}${cards && !card && html`<p class="message dim">${t('Nothing found.')}</p>`}</main>`;
 }

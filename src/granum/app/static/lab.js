@@ -1,5 +1,6 @@
 // Lab data: drop a table, give the conditions, read parameters with intervals.
 import {
+  Awaited,
   html,
   t,
   ask,
@@ -33,7 +34,7 @@ export function Lab({ state }) {
     0,
   );
   return html`<main class="three" id="main"><${Finder} page="lab" current=${key} cards=${cards} />
-    ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : error?.details ? html`<${NoCard} heading=${t('Lab data')} error=${error} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
+    ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : error?.details ? html`<${NoCard} heading=${t('Lab data')} error=${error} />` : html`<section aria-label=${t('Enter')}><${Awaited} text=${key ? t('The card is on its way…') : t('The list of cards is on its way…')} /></section><section />`}</main>`;
 }
 
 function Test({ card, given }) {

@@ -1,5 +1,5 @@
 // The equipment to choose from, by domain, with its symbols; found by its names in either language.
-import { html, t, ask, settings, useAnswer, useState, useEffect, useRef } from './core.js';
+import { Awaited, html, t, ask, settings, useAnswer, useState, useEffect, useRef } from './core.js';
 import { english } from './strings.fr.js';
 
 const kept = {};
@@ -75,7 +75,7 @@ export function Palette({ origin, pick, close }) {
     ) => {
       if (e.key === 'Enter') setEntered(word);
     }} />
-    ${!list && html`<p class="dim" aria-busy="true">${t('Loading…')}</p>`}
+    ${!list && html`<${Awaited} text=${t('The list of equipment is on its way…')} />`}
     <div class="shelves">${words.length ? pieces(found) : domains.map((domain) => html`<div key=${domain}><h3>${t(domain)}</h3>${pieces(found.filter((e) => e.domain === domain))}</div>`)}</div>
     ${list && found.length === 0 && html`<p class="dim">${t('Nothing found.')}</p>`}</section>`;
 }

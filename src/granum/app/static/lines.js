@@ -1,5 +1,6 @@
 // Lines: build or open a case, work on its diagram and forms, see it solved after each step, compare, report.
 import {
+  Awaited,
   html,
   t,
   ask,
@@ -464,7 +465,7 @@ export function Lines({ state }) {
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
     ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
     ${text && html`<div class="row spread"><h2 class="first title">${form?.title || outcome?.title || ''}</h2><div class="row">${tools}</div></div><span class="small dim" role="status" data-copied>${copied}</span>`}
-    ${reading && !form && html`<p class="dim" aria-busy="true">${t('Reading the line…')}</p>`}
+    ${reading && !form && html`<${Awaited} text=${t('Reading the line…')} />`}
     ${
       form &&
       html`<div class="row"><button class="button" onClick=${() => setPalette({ origin: '' })}>${t('Add equipment')}</button><button class="button" onClick=${async () => {

@@ -1,5 +1,5 @@
 // A page of the documentation, read in the app.
-import { html, t, ask, useAnswer, useEffect, useRef, useState, render, settings, Working } from './core.js';
+import { Awaited, html, t, ask, useAnswer, useEffect, useRef, useState, render, settings, Working } from './core.js';
 import { Moving } from './moving.js';
 import { Plot } from './plot.js';
 
@@ -58,7 +58,7 @@ export function Read({ state }) {
   if (error)
     return html`<main class="page" id="main"><h1>${t('Reading')}</h1><p class="message out">${error.message}</p></main>`;
   if (!data)
-    return html`<main class="page" id="main" aria-busy="true"><h1>${t('Reading')}</h1><p class="dim">${t('The page is on its way…')}</p></main>`;
+    return html`<main class="page" id="main"><h1>${t('Reading')}</h1><${Awaited} text=${t('The page is on its way…')} /></main>`;
   return html`<main class="page read" id="main"><article ref=${article} lang=${data.language} dangerouslySetInnerHTML=${{ __html: data.html }} />
     ${data.whole ? null : html`<p class="small dim">${t('The other plots and tables of this page are in the documentation site.')}</p>`}</main>`;
 }

@@ -131,7 +131,7 @@ export function Seek() {
     setOpen(false);
   }}>
     <button class="opener" aria-label=${t('Search everything')} aria-expanded=${String(open)} onClick=${show}><${Glass} /></button>
-    <div class="sheet"><div class="line"><${Glass} /><input ref=${input} id="seek" type="text" enterkeyhint="search" autocomplete="off" spellcheck=${false} aria-label=${t('Search everything')} aria-controls="hits" aria-autocomplete="list" aria-activedescendant=${listed && flat.length ? `hit-${at}` : null}
+    <div class="sheet"><div class="line"><${Glass} /><input ref=${input} id="seek" type="text" role="combobox" aria-expanded=${String(listed && flat.length > 0)} enterkeyhint="search" autocomplete="off" spellcheck=${false} aria-label=${t('Search everything')} aria-controls="hits" aria-autocomplete="list" aria-activedescendant=${listed && flat.length ? `hit-${at}` : null}
         placeholder=${t('Search everything')} value=${word} onFocus=${() => {
           setOpen(true);
           ready();

@@ -94,16 +94,20 @@ export function States({ values, states, figure, set }) {
   return html`<section data-states><h2>${t('States')}</h2>
     ${
       states.length > 0 &&
-      html`<div class="wide" tabindex="0" role="region" aria-label=${t('States')}><table class="states"><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: headed(head) }} />`)}<th scope="col"><span class="hidden">${t('Remove')}</span></th></tr></thead>
+      html`<div class="wide" tabindex="0" role="region" aria-label=${t('States')}><table class="states stack"><thead><tr>${heads.map((head) => html`<th scope="col" class="n" dangerouslySetInnerHTML=${{ __html: headed(head) }} />`)}<th scope="col"><span class="hidden">${t('Remove')}</span></th></tr></thead>
       <tbody>${states.map(
         (_, i) =>
-          html`<tr key=${`${i} ${states.length}`}>${heads.map((head, column) => (column >= 1 && column <= 4 ? html`<td class="n"><${Cell} label=${`${t('state {number}', { number: i + 1 })}, ${head.replace(/<[^>]*>/g, '')}`} text=${text(i, column)} change=${(typed) => change(i, column, typed)} /></td>` : html`<td class="n">${column === 0 ? i + 1 : text(i, column)}</td>`))}
+          html`<tr key=${`${i} ${states.length}`}>${heads.map((head, column) => (column >= 1 && column <= 4 ? html`<td class="n"><${Headed} head=${head} /><${Cell} label=${`${t('state {number}', { number: i + 1 })}, ${head.replace(/<[^>]*>/g, '')}`} text=${text(i, column)} change=${(typed) => change(i, column, typed)} /></td>` : html`<td class="n">${column > 0 && html`<${Headed} head=${head} />`}${column === 0 ? i + 1 : text(i, column)}</td>`))}
           <td><button class="plain" aria-label=${t('Remove state {number}', { number: i + 1 })} onClick=${() => put(states.filter((_s, k) => k !== i))}>×</button></td></tr>`,
       )}</tbody></table></div>`
     }
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
     <div class="row"><button class="button" onClick=${() => put([...states, states.at(-1) ?? [20, 7]])}>${t('Add a state')}</button> <span class="small dim">${t('or click on the chart')}</span></div></section>`;
 }
+
+/** What a cell holds, beside it where a state stands as a list. */
+const Headed = ({ head }) =>
+  html`<span class="beside" aria-hidden="true" dangerouslySetInnerHTML=${{ __html: headed(head) }} />`;
 
 /** A cell whose text belongs to the user while it has the focus. */
 function Cell({ label, text, change }) {

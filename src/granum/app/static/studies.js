@@ -76,7 +76,7 @@ function Study({ state }) {
   return html`<main class="studies" id="main">${
     ready
       ? html`<${Form} key=${place + settings.language + settings.units + state.visit} place=${place} head=${head} subject=${found.subject} choices=${found.choices} />`
-      : html`<section aria-label=${t('Enter')}>${head}${error && !pending ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim" aria-busy="true">${t('Reading what may vary and what may be watched…')}</p><${Working} busy=${pending} cancel=${cancel} job=${job} />`}</section><section aria-label=${t('Believe')} />`
+      : html`<section aria-label=${t('Enter')}>${head}${error && !pending ? html`<p class="message out" role="alert">${error.message}</p>` : html`<div aria-busy="true"><${Working} busy=${pending} from=${0} text=${t('Reading what may vary and what may be watched…')} cancel=${cancel} job=${job} /></div>`}</section><section aria-label=${t('Believe')} />`
   }</main>`;
 }
 
