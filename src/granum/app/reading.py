@@ -79,7 +79,7 @@ def _as_code(text: str) -> str:
 def _wide(head: str, number: int) -> str:
     """The beginning of a table that may be wider than the page, told apart from the others by its columns."""
     columns = ", ".join(re.sub("<[^>]*>", "", cell) for cell in re.findall("<th.*?>(.*?)</th>", head))
-    label = _("table {number}: {columns}").format(number=number, columns=columns)
+    label = _("table {number}: {columns}").format(number=number, columns=columns).replace('"', "&quot;")
     return f'<div class="wide" tabindex="0" role="region" aria-label="{label}"><table>'
 
 
