@@ -67,6 +67,12 @@ def test_specification_in_a_case() -> None:
         ('"20 degC"', "true", "'feeds.cold.temperature' = true .*a number with its unit"),
         ('"3600 kg/h"', "false", "'feeds.cold.liquid_flow' = false .*a number with its unit"),
         ("[mixture]", "[mixture", "not valid TOML"),
+        (
+            "[feeds.cold]",
+            "[streams.cold]",
+            r"no .*'liquid_flow'.*: what enters .* \[feeds\.cold\], with 'to'",
+        ),
+        ('["heat", "split"]', "{ from = 3 }", r"'streams\.\w+\.from'"),
     ],
 )
 def test_wrong_cases_say_what_to_do(old: str, new: str, message: str) -> None:

@@ -92,10 +92,31 @@ def validated(shape: type[Shape], raw: Mapping[str, Any], name: str) -> Shape:
 
 def _complaint(shape: type[Shape], name: str, problem: ValidationError) -> str:
     """What is wrong with a file: the first problem, and keys beside it that are missing or not known."""
-    first, *others = problem.errors()
+    errors = problem.errors()
+    for error in errors:
+        # a stream may be a table or a pair: which of them was read is nobody's name
+        error["loc"] = tuple(x for x in error["loc"] if x not in (StreamTable.__name__, "list[str]"))
+    entering = [e["loc"] for e in errors if e["loc"][0] == "streams" and e["loc"][-1] in _feed_keys()]
+    if entering:
+        return f"{name}: {_entering(entering)}"
+    first, *others = errors
     further = [e for e in others if e["type"] in ("missing", "extra_forbidden")]
     told = dict.fromkeys(_said(shape, e, name) for e in (first, *further))
     return f"{name}: " + " ".join(list(told)[:MOST_TOLD])
+
+
+def _feed_keys() -> set[str]:
+    return set(FeedTable.model_fields) - {"to"}
+
+
+def _entering(places: list[tuple[Any, ...]]) -> str:
+    """What enters the line was written as a stream between its units."""
+    stream = places[0][1]
+    keys = [str(place[-1]) for place in places if place[1] == stream]
+    return _(
+        "[{table}] connects two units and has no {keys}: what enters the line is written as [{feed}], "
+        "with 'to'."
+    ).format(table=f"streams.{stream}", keys=", ".join(map(repr, keys)), feed=f"feeds.{stream}")
 
 
 def _said(shape: type[Shape], error: ErrorDetails, name: str) -> str:
