@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.conveying import unconfined_strength
 from granum.core import record_steps
 from granum.core.conversion import law_of
 from granum.core.errors import ApplicabilityError, InputError, nearest
@@ -38,6 +39,14 @@ def test_nearest_name() -> None:
 def test_bad_scalars_raise_one_message(change: dict, message: str) -> None:
     with pytest.raises(InputError, match=message):
         reynolds_number(**{**GOOD, **change})
+
+
+def test_percent_is_proposed_only_where_it_would_do() -> None:
+    powder = {"consolidation_stress": 3e3, "strength_intercept": 0.0, "strength_slope": 0.3}
+    with pytest.raises(InputError, match=r"between 0\.05 and 1\.$"):
+        unconfined_strength(**powder, strength_exponent=2.0)
+    with pytest.raises(InputError, match=r"Did you mean 40 %\?$"):
+        unconfined_strength(**powder, strength_exponent=40.0)
 
 
 def test_missing_and_doubled_inputs() -> None:

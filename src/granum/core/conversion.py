@@ -53,7 +53,7 @@ def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
     message = _("{label} ('{name}') = {value} is not possible{where}: it must be {allowed}.").format(
         label=parameter.label, name=parameter.name, value=shown, where=where, allowed=allowed
     )
-    if kind.upper == 1.0 and 2.0 <= value <= 100.0:
+    if kind.upper == 1.0 and 2.0 <= value <= 100.0 and value >= 100.0 * kind.lower:
         message += " " + _("Did you mean {value} %?").format(value=units.format_number(float(value)))
     return InputError(message, name=parameter.name, value=float(value), allowed=allowed)
 

@@ -36,7 +36,7 @@ export function Advice({ name, advice }) {
 }
 
 export function UnitFigures({ name, unit, cases }) {
-  return html`<div class="wide" tabindex="0" role="region" aria-label=${pretty(name)}><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
+  return html`<div class="wide" tabindex="0" role="region" aria-label=${`${pretty(name)} – ${t('Results')}`}><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
     ${Object.entries(unit.results).map(([figure, row]) => html`<tr><td>${row.label || figure.replaceAll('_', ' ')}</td>${cases.map((c) => html`<td class="n" data-figure=${name + '.' + figure}>${c.units[name]?.results[figure]?.text ?? '—'}</td>`)}</tr>`)}
     ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n wrap" colspan=${cases.length}><span class="whole">${c.text}</span> <span class="whole dim">(${c.allowed})</span></td></tr>`)}</tbody></table></div>`;
 }
