@@ -151,11 +151,17 @@ def test_a_hydrate_has_a_solubility_or_none_beside_much_salt():
     pair = brine(("sodium sulfate", "sodium chloride"))
     hydrate = next(k for k, c in enumerate(pair.crystals) if c.water)
     brines = jnp.linspace(0.0, 6.0, 25)[:, None] * pair.ions_per_salt[1]
+
+    @jax.jit
+    @jax.vmap
+    def at(T, others):
+        found = pair.solubility(T, others, hydrate)
+        there = others + found * jnp.asarray(pair.crystals[hydrate].ions, dtype=float)
+        return found, pair.saturation(T, there)[hydrate]
+
     for kelvin, met in ((278.15, True), (303.15, False)):
         T = jnp.asarray(kelvin)
-        found = jax.vmap(lambda others, T=T: pair.solubility(T, others, hydrate))(brines)
-        there = brines + found[:, None] * jnp.asarray(pair.crystals[hydrate].ions, dtype=float)
-        ratios = jax.vmap(lambda m, T=T: pair.saturation(T, m)[hydrate])(there)
+        found, ratios = at(jnp.full(len(brines), kelvin), brines)
         if met:
             np.testing.assert_allclose(ratios, 0.0, atol=1e-9)
         else:
