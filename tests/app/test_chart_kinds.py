@@ -13,11 +13,16 @@ from selenium.webdriver.common.keys import Keys
 from tests.app.browsing import Page, resize
 
 INDEX = Path(str(files("granum") / "core" / "index.csv"))
-CHARTS = [
-    row["key"]
-    for row in csv.DictReader(INDEX.read_text(encoding="utf-8").splitlines())
-    if row["sort"] == "chart"
-]
+CARDS = list(csv.DictReader(INDEX.read_text(encoding="utf-8").splitlines()))
+CHARTS = [row["key"] for row in CARDS if row["sort"] == "chart"]
+# names of laws as files have them, with and without the family before
+LAWS = {
+    word.replace("_", " ")
+    for row in CARDS
+    if row["sort"] == "law"
+    for name in [row["key"].partition(".")[2]]
+    for word in (name, name.removeprefix(f"{row['family']}_"))
+}
 
 ALSO_PICTURES = (
     "humid_gas.psychrometric_chart",
@@ -49,6 +54,8 @@ def test_no_button_of_a_chart_sends_anything_anywhere(visited: Page, chart: str)
     page.browser.get_log("performance")
     page.visit(f"charts/{chart}")
     assert page.text("main h1")
+    words = [e.text for e in page.all(".fields select.alone option:checked")]
+    assert not [word for word in words if word in LAWS], "a law by its title"
     windows = len(page.browser.window_handles)
     if page.all(".plot"):  # some charts wait for a table of one's own
         buttons = page.until(lambda: page.all(".plot .modebar-btn"))

@@ -31,7 +31,8 @@ export function Fields({ card, all, values, onChange, wrong, error, aside }) {
 }
 
 function Choice({ p, id, note, text, onChange, problem = '', tables = {} }) {
-  const shown = text || (p.required ? '' : (p.default_shown?.number ?? ''));
+  const word = text || (p.required ? '' : (p.default_shown?.number ?? ''));
+  const shown = p.law && word !== '' ? named(p, word) : word;
   const open = p.required || p.default === null;
   const known = shown === '' || p.options.some((o) => o.value === shown);
   return html`<select id=${id} class="alone" value=${shown} aria-describedby=${note} aria-invalid=${problem ? 'true' : 'false'} onChange=${(e) => onChange(meant(p, e.target.value, text, tables))}>
