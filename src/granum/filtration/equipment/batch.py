@@ -45,7 +45,7 @@ from granum.streams.utilities import AREA, PUMPED, compressed, pumped
 
 # Gauss–Legendre on the cake that grows at a constant rate, and steps of Newton at each of its points
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
-STEPS = 40
+STEPS, LEAST_SHARE = 40, 1e-12
 
 
 class BatchFilter(CakeFilter):
@@ -136,7 +136,7 @@ class BatchFilter(CakeFilter):
         for _step in range(STEPS):
             power = safe_power(x, n - 1.0)
             slope = jnp.maximum(1.0 - n * part * power, 1e-9)
-            x = jnp.clip(x - (x - bare - part * power * x) / slope, 0.0, 1.0)
+            x = jnp.clip(x - (x - bare - part * power * x) / slope, LEAST_SHARE, 1.0)
         rising = self.pressure_drop * 0.5 * jnp.sum(WEIGHTS * x)
         return self.pressure_drop + (rising - self.pressure_drop) * safe_divide(first, loading)
 
