@@ -100,6 +100,12 @@ def test_a_cone_for_the_time_that_its_cake_has_to_drain(name: str) -> None:
         ),
         ("dust.bag_filter", {}, InputError, "give one of its figures"),
         ("dust.bag_filter", {"removal_efficiency": "110 %"}, InputError, "removal"),
+        (
+            "centrifuges.vibrating_screen",
+            {"drainage_time": "5 s", "rotation_speed": "1000 rpm"},
+            ApplicabilityError,
+            "does not hold: vibration over the least",
+        ),
         ("streams.mixer", {"mass_flow": "1 kg/s"}, ApplicabilityError, "cannot be sized"),
     ],
 )
