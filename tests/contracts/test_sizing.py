@@ -7,6 +7,7 @@ back to the first. Some are tried each time, all in the long run (``GRANUM_RANDO
 from __future__ import annotations
 
 import json
+import math
 
 import pytest
 from tests.sharing.samples import SAMPLES
@@ -65,6 +66,25 @@ def test_cloth_of_a_bag_filter_by_hand() -> None:
     )
 
 
+@pytest.mark.parametrize("name", ["sliding_screen", "vibrating_screen", "tumbling_screen"])
+def test_a_cone_for_the_time_that_its_cake_has_to_drain(name: str) -> None:
+    """Where the cake goes at one pace the length goes with the time; where it slides ever faster the farther
+    from the axis, by r'' = ω² r sin β (sin β - tan φ cos β) from the small end: r = r₁ cosh(k t).
+    """
+    key = f"centrifuges.{name}"
+    once = gr.size(key, drainage_time="0.1 s").found[f"{name}.basket_length"]
+    run = gr.size(key, drainage_time="0.15 s")
+    found = run.found[f"{name}.basket_length"]
+    if name != "sliding_screen":
+        assert found == pytest.approx(1.5 * once, rel=1e-6)
+        return
+    cone = run.line.sheet.units[name]
+    b, f, r1 = float(cone.cone_angle), float(cone.friction_angle), float(cone.radius_outer)
+    k = float(cone.rotation_speed) * math.sqrt(math.sin(b) * (math.sin(b) - math.tan(f) * math.cos(b)))
+    stay = 0.15 / (1.0 - 0.3)  # but for the share of the length on which the slurry arrives
+    assert found * math.sin(b) == pytest.approx(r1 * (math.cosh(k * stay) - 1.0), rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("key", "figures", "problem", "says"),
     [
@@ -80,6 +100,12 @@ def test_cloth_of_a_bag_filter_by_hand() -> None:
         ),
         ("dust.bag_filter", {}, InputError, "give one of its figures"),
         ("dust.bag_filter", {"removal_efficiency": "110 %"}, InputError, "removal"),
+        (
+            "centrifuges.vibrating_screen",
+            {"drainage_time": "5 s", "rotation_speed": "1000 rpm"},
+            ApplicabilityError,
+            "does not hold: vibration over the least",
+        ),
         ("streams.mixer", {"mass_flow": "1 kg/s"}, ApplicabilityError, "cannot be sized"),
     ],
 )

@@ -30,24 +30,28 @@ def summed(filter_, s, resistance_of, steps: int = 40_000) -> tuple[float, float
 def test_sum_over_the_cake_of_a_press(compressibility: float, flux: float, medium: float) -> None:
     m = mixture()
     feed = stream(m, 0.1, 1.0)
-    press = ChamberPress(
+    fields = {
         **RIGID,
-        chamber_depth=0.03,
-        medium_resistance=medium,
-        compressibility=compressibility,
-        filtrate_flux_largest=flux,
-    )
+        "chamber_depth": 0.03,
+        "medium_resistance": medium,
+        "compressibility": compressibility,
+    }
+    press = ChamberPress(**fields, filtrate_flux_largest=flux)
     s = press.slurry(feed)
 
-    def driven(w):
-        """Flux of the pump where its pressure is below that of the press, else that of the press."""
+    def needed(w):
+        """Pressure that the pump needs for its flux through a cake that yields to it, as far as it has it."""
         low, high = np.zeros_like(w), np.full_like(w, 4e5)
-        for _ in range(60):  # pressure that the pump needs for its flux through a cake that yields to it
+        for _ in range(60):
             middle = 0.5 * (low + high)
             alpha = 6e10 * np.maximum(middle / 1e5, 1e-12) ** compressibility
             needs = float(s.dynamic_viscosity) * flux * (alpha * w + medium)
             low, high = np.where(needs > middle, middle, low), np.where(needs > middle, high, middle)
-        pressure = 0.5 * (low + high)
+        return 0.5 * (low + high)
+
+    def driven(w):
+        """Flux of the pump where its pressure is below that of the press, else that of the press."""
+        pressure = needed(w)
         alpha = 6e10 * (pressure / 1e5) ** compressibility
         return np.where(
             pressure > 3.999999e5,
@@ -59,6 +63,13 @@ def test_sum_over_the_cake_of_a_press(compressibility: float, flux: float, mediu
     made = press.plan(s, feed)
     assert float(made.formation_time) == pytest.approx(time, rel=2e-4)
     assert float(made.pressure_rise_time) == pytest.approx(rising, rel=1e-3, abs=time * 1e-4)
+    # the work of the pump: its pressure over the filtrate, which goes with the cake
+    w = (np.arange(4000) + 0.5) / 4000 * float(press.loading(s))
+    assert float(press.pump_pressure(s, press.loading(s))) == pytest.approx(needed(w).mean(), rel=1e-3)
+    shaft = {"free": ChamberPress(**fields), "slow": press}
+    drawn = {k: p.operate(feed=feed).uses["electric_power_pump"] for k, p in shaft.items()}
+    share = needed(w).mean() / 4e5
+    assert float(drawn["slow"]) == pytest.approx(share * float(drawn["free"]), rel=1e-3)
 
 
 def test_sum_over_the_cake_of_a_candle() -> None:
@@ -79,6 +90,9 @@ def test_sum_over_the_cake_of_a_candle() -> None:
             r = np.sqrt(0.03**2 + 2 * 0.03 * w / packed)
             return 4e5 / (viscosity * (6e10 * packed * 0.03 * np.log(r / 0.03) + 2e11))
 
+        w = (np.arange(4000) + 0.5) / 4000 * float(candle.loading(s))
+        mean = np.minimum(4e5 * flux / driven(w), 4e5).mean()
+        assert float(candle.pump_pressure(s, candle.loading(s))) == pytest.approx(mean, rel=1e-3)
         time, rising = summed(candle, s, driven)
         made = candle.plan(s, feed)
         assert float(made.formation_time) == pytest.approx(time, rel=2e-4)
@@ -96,6 +110,9 @@ def test_sum_over_the_cake_of_a_thinning_liquid() -> None:
     for flux in (2e-6, 1e-5, 1e-3):
         leaf = PressureLeafFilter(**settings, consistency=0.05, flow_index=0.6, filtrate_flux_largest=flux)
         time, rising = summed(leaf, s, lambda w: 1e-4 * (known / (6e10 * w + 1e11)) ** (1 / 0.6))
+        w = (np.arange(4000) + 0.5) / 4000 * float(leaf.loading(s))
+        mean = (4e5 * np.minimum((flux / 1e-4) ** 0.6 * (6e10 * w + 1e11) / known, 1.0)).mean()
+        assert float(leaf.pump_pressure(s, leaf.loading(s))) == pytest.approx(mean, rel=1e-3)
         made = leaf.plan(leaf.slurry(feed), feed)
         assert float(made.formation_time) == pytest.approx(time, rel=3e-4)
         assert float(made.pressure_rise_time) == pytest.approx(rising, rel=1e-3, abs=time * 1e-4)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import granum as gr
-from granum.core.errors import CaseError
+from granum.core.errors import CaseError, ConvergenceError
 from granum.flowsheet.run import Run
 
 GRAVITY, SOLID, LIQUID = 9.80665, 2650.0, 998.2
@@ -89,3 +89,85 @@ def test_half_a_liquid_is_refused() -> None:
         basin((100,), flow_index=0.5)
     with pytest.raises(CaseError, match="alone does not tell"):
         basin((100,), consistency=0.5)
+
+
+def lamella(**settings: Any) -> Run:
+    """Plates between which all of the coarser and part of the finer grain settles."""
+    fixed = {"plate_number": 12, "plate_length": "1.2 m", "plate_width": "1 m", "plate_spacing": "5 cm"}
+    return basin((40, 60), "settling.lamella", **fixed, **settings)
+
+
+@pytest.mark.parametrize("n", [0.9, 0.7, 0.5])
+def test_plates_in_a_power_law(n: float) -> None:
+    """Yao between wide plates, whatever the profile: v_c = v₀/(sin α + L/b cos α); creeping grains."""
+    d, consistency, plates = 1e-3, 2.0, 50
+    speed = (GRAVITY * d ** (n + 1) * (SOLID - LIQUID) / (18 * TABLE[n] * consistency)) ** (1 / n)
+    flow = 100 / 3.6 / LIQUID
+    # a tenth of what falls is kept where the critical velocity is ten times as high
+    angle = np.radians(60)
+    width = flow / (plates * 0.05) / (10 * speed * (np.sin(angle) + 1.2 / 0.05 * np.cos(angle)))
+    run = basin(
+        (1000,),
+        "settling.lamella",
+        plate_number=plates,
+        plate_length="1.2 m",
+        plate_width=f"{width} m",
+        plate_spacing="5 cm",
+        consistency=f"{consistency} Pa*s",
+        flow_index=n,
+    )
+    assert run.figure("lamella.removal_efficiency") == pytest.approx(0.1, rel=0.03 / n)
+    # Metzner and Reed between wide plates: 24 over the friction factor of a flow of that profile, by hand
+    v = flow / (plates * width * 0.05)
+    friction = 2 * consistency * ((2 + 1 / n) * 2 * v / 0.05) ** n / (LIQUID * v**2)
+    checks = {c.name: float(c.value) for c in run.units["lamella"].checks}
+    assert checks["Reynolds number between the plates"] == pytest.approx(24 / friction, rel=2e-3)
+
+
+def test_plates_in_newtons_liquid_by_any_name() -> None:
+    plain, water = lamella(), {"consistency": "1.0016 mPa*s"}
+    kept = plain.figure("lamella.removal_efficiency")
+    assert 0.3 < kept < 0.95
+    reynolds = "Reynolds number between the plates"
+    told = {c.name: float(c.value) for c in plain.units["lamella"].checks}[reynolds]
+    for law, near in (({"flow_index": 1.0}, 0.02), ({"yield_stress": "1e-12 Pa"}, 2e-3)):
+        run = lamella(**law, **water)
+        assert run.figure("lamella.removal_efficiency") == pytest.approx(kept, rel=near)
+        found = {c.name: float(c.value) for c in run.units["lamella"].checks}[reynolds]
+        assert found == pytest.approx(told, rel=1e-3)
+
+
+def test_oil_in_a_thinning_water() -> None:
+    """Creeping globules by hand: rise, ratio and turbulence factor of API from its points."""
+    n, consistency, d = 0.9, 2e-3, 150e-6
+    run = gr.alone("settling.api_separator", consistency=consistency, flow_index=n).solve()
+    feed = run.streams["feed"]
+    water, oil = float(feed.liquid_density), float(np.min(feed.mixture.densities("solids", feed.temperature)))
+    rise = (GRAVITY * d ** (n + 1) * (water - oil) / (18 * TABLE[n] * consistency)) ** (1 / n)
+    assert run.figure("api_separator.rise_velocity") == pytest.approx(rise, rel=0.05)
+    ratio = run.figure("api_separator.horizontal_velocity") / run.figure("api_separator.rise_velocity")
+    factor = np.interp(ratio, (3.0, 6.0, 10.0, 15.0, 20.0), (1.28, 1.37, 1.52, 1.64, 1.74))
+    assert 3.0 < ratio < 20.0
+    assert run.figure("api_separator.turbulence_factor") == pytest.approx(factor, rel=1e-9)
+    plain = gr.alone("settling.api_separator").solve()
+    assert run.figure("api_separator.removal_efficiency") < plain.figure("api_separator.removal_efficiency")
+
+
+def test_a_held_globule_is_no_design() -> None:
+    with pytest.raises(ConvergenceError, match="yield stress holds the globule"):
+        gr.alone("settling.api_separator", consistency="50 mPa*s", yield_stress="5 Pa").solve()
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_plates_and_oil_basins_in_thicker_liquids_keep_less_and_balances_close(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    law = {"flow_index": float(rng.uniform(0.5, 1.0))} if seed % 2 else {"yield_stress": "0.001 Pa"}
+    name = ("lamella", "api_separator")[seed // 2 % 2]
+    kept = 1.0
+    for consistency in np.sort(10 ** rng.uniform(-3, 0, 3)):
+        run = gr.alone(f"settling.{name}", consistency=float(consistency), **law).solve()
+        now = run.figure(f"{name}.removal_efficiency")
+        assert 0.0 <= now <= kept + 1e-9
+        assert float(run.audit["mass_closure"]) < 1e-9
+        assert float(run.audit["energy_closure"]) < 1e-9
+        kept = now

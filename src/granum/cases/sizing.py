@@ -23,7 +23,7 @@ from granum.cases.reading import read_text
 from granum.cases.sections import with_table
 from granum.core import registry
 from granum.core.conversion import convert
-from granum.core.errors import ApplicabilityError, InputError, unknown_name
+from granum.core.errors import ApplicabilityError, ConvergenceError, InputError, unknown_name
 from granum.core.i18n import _, quoted
 from granum.core.parameters import Parameter
 from granum.flowsheet.findings import unanswered
@@ -196,9 +196,8 @@ def bracket(line: Line, name: str, p: Parameter, figure: Parameter, wanted: floa
     x = _looked_at(p, float(start))
     x, y = _reached(_looking(line, name, p.name, figure.name), x, wanted)
     if not x.size or not np.ptp(y) > SAME * np.abs(y).max():
-        raise ApplicabilityError(
-            _("{output} does not depend on {name} here.").format(output=figure.label, name=p.label)
-        )
+        said = _("{output} does not depend on {name} here.").format(output=figure.label, name=p.label)
+        raise ApplicabilityError(" ".join([said, *_failing(line, name)]))
     miss = np.where(np.abs(y - wanted) <= SAME * abs(wanted), 0.0, np.sign(y - wanted))
     met = np.flatnonzero(miss == 0.0)
     if met.size > 1:
@@ -222,6 +221,19 @@ def bracket(line: Line, name: str, p: Parameter, figure: Parameter, wanted: floa
         raise reached_often(p, figure, wanted, [float(x[i]) for i, _j in sorted(found)])
     i, j = found[0]
     return float(x[i]), float(x[j])
+
+
+def _failing(line: Line, name: str) -> list[str]:
+    """The checks of a piece that do not hold at the settings given, told; none where it has no answer."""
+    try:
+        checks = line.solve().units[name].checks
+    except ConvergenceError:
+        return []
+    return [
+        _("With what is given this check does not hold: {name}.").format(name=_(check.name))
+        for check in checks
+        if not check.ok
+    ]
 
 
 def _reached(

@@ -141,6 +141,9 @@ class ScrollScreen(ConicalScreen):
 class SlidingScreen(ConicalScreen):
     """Abstract conical screen over which the cake slides. Its stay follows from dry friction unless a test
     gives it; ``radius_outer`` is taken as that of the small end, from which the cake slides.
+
+    It is sized by the time that its cake has to drain, as a spin test asks for it. Moisture hardly tells one
+    length from another: on a longer cone the cake is thinner and holds the more for it.
     """
 
     cone_angle: ConeAngle

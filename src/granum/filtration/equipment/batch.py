@@ -34,6 +34,8 @@ from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilt
 from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
 from granum.filtration.formulas.non_newtonian import filtration_time_power_law
 from granum.filtration.squeezing import void_ratio
+from granum.numerics import safe_power
+from granum.numerics.smooth import safe_divide
 from granum.porous.formulas.non_newtonian import dynamic_viscosity_permeable_christopher_middleman
 from granum.streams.cake_course import POINTS, Stage
 from granum.streams.cakes import Filtered
@@ -41,14 +43,18 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities
 from granum.streams.utilities import AREA, PUMPED, compressed, pumped
 
+# Gauss–Legendre on the cake that grows at a constant rate, and steps of Newton at each of its points
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
+STEPS, LEAST_SHARE = 40, 1e-12
+
 
 class BatchFilter(CakeFilter):
     """Abstract batch filter: one cake thickness, the times that follow from it, and the times that are
     set.
 
     A pump that delivers no more than ``filtrate_flux_largest`` filters at that flux until the pressure drop
-    is reached, which then is held. Washing and draining are at the full pressure drop, for which the pump is
-    paid, and what is to be known of a compressible cake, too.
+    is reached, which then is held. It is paid for the pressure that it gives at each moment. Washing and
+    draining are at the full pressure drop, and what is to be known of a compressible cake, too.
     """
 
     _: KW_ONLY
@@ -94,6 +100,10 @@ class BatchFilter(CakeFilter):
         """Dry cake mass per area whose cake has a resistance."""
         return resistance / self.resistance
 
+    def resistance_of(self, s: Slurry, loading: Any) -> Any:
+        """Resistance of the cake of a dry mass per area, at the pressure drop."""
+        return self.resistance * loading
+
     def pressed_time(self, s: Slurry, loading: Any) -> Any:
         """Time to form a cake of a dry mass per area at the pressure drop from the start."""
         return super().formation_time(s, loading)
@@ -108,6 +118,27 @@ class BatchFilter(CakeFilter):
         held = jnp.maximum(self.through(s, flux) - self.media_resistance(), 0.0)
         first = jnp.minimum(self.loading_of(s, held), loading)
         return first, first / (s.dry_cake_per_filtrate * flux)
+
+    def pump_pressure(self, s: Slurry, loading: Any) -> Any:
+        """Mean pressure of the pump over the filtrate of a cake: its work for the volume that it moves.
+
+        As far as its flux goes it gives what cake and medium resist, and a compressible cake resists by
+        that pressure: p = c (α(p) w + R_s).
+        """
+        flux = self.filtrate_flux_largest
+        if flux is None:
+            return self.pressure_drop
+        first, n = self.at_rate(s, loading)[0], self.compressibility
+        part = self.resistance_of(s, 0.5 * first * (1.0 + NODES)) / self.through(s, flux)
+        bare = jnp.minimum(self.media_resistance() / self.through(s, flux), 1.0)
+        # as a share of the pressure drop: x = bare + part xⁿ, by Newton from the side that it comes down from
+        x = jnp.where(n < 1.0, 1.0, bare) + 0.0 * part
+        for _step in range(STEPS):
+            power = safe_power(x, n - 1.0)
+            slope = jnp.maximum(1.0 - n * part * power, 1e-9)
+            x = jnp.clip(x - (x - bare - part * power * x) / slope, LEAST_SHARE, 1.0)
+        rising = self.pressure_drop * 0.5 * jnp.sum(WEIGHTS * x)
+        return self.pressure_drop + (rising - self.pressure_drop) * safe_divide(first, loading)
 
     def formation_time(self, s: Slurry, loading: Any) -> Any:
         if self.filtrate_flux_largest is None:
@@ -144,11 +175,12 @@ class BatchFilter(CakeFilter):
         self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
     ) -> dict[str, Any]:
         plan = inside.plan
-        pushed = feed.slurry_volume_flow + (0.0 if wash is None else wash.liquid_volume_flow)
+        washed = 0.0 if wash is None else wash.liquid_volume_flow
+        mean = self.pump_pressure(inside.slurry, plan.dry_cake_mass_per_area)
         blown = STANDARD_ATMOSPHERE + self.pressure_drop
         gas = self.gas_flow(inside, feed, blown, STANDARD_ATMOSPHERE) * plan.area_required
         return {
-            "electric_power_pump": pumped(pushed, self.pressure_drop),
+            "electric_power_pump": pumped(feed.slurry_volume_flow, mean) + pumped(washed, self.pressure_drop),
             "electric_power_compressor": compressed(gas * plan.deliquoring_time / plan.cycle_time, blown),
             "area_installed": self.area,
         }
@@ -523,6 +555,10 @@ class CandleFilter(BatchFilter):
         r0, packed = self.candle_radius, (1.0 - self.void_fraction) * s.solid_density
         turns = jnp.minimum(resistance / (self.resistance * packed * r0), 20.0)  # beyond, thicker than any
         return 0.5 * packed * r0 * jnp.expm1(2.0 * turns)
+
+    def resistance_of(self, s: Slurry, loading: Any) -> Any:
+        r0, packed = self.candle_radius, (1.0 - self.void_fraction) * s.solid_density
+        return 0.5 * self.resistance * packed * r0 * jnp.log1p(2.0 * loading / (packed * r0))
 
     def pressed_time(self, s: Slurry, loading: Any) -> Any:
         r0, packed = self.candle_radius, (1.0 - self.void_fraction) * s.solid_density

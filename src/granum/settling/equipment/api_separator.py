@@ -9,6 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.errors import InputError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
@@ -22,6 +23,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.core.limits import Limit
+from granum.settling.equipment.carriers import Carried
 from granum.settling.equipment.gravity import (
     DRAG,
     HINDRANCE,
@@ -46,6 +48,10 @@ from granum.streams.utilities import AREA
 
 ROUNDING = 1e-9
 FOOT = 0.3048  # m
+HOLDS = (
+    "The yield stress holds the globule for which the separator is designed: it never rises, and API has no "
+    "such basin. Give a greater 'droplet_diameter', or a liquid that holds less."
+)
 SECTION_LIMIT = 160 * FOOT**2  # m²: 160 ft² a channel
 
 
@@ -70,12 +76,16 @@ class SeparatorFigures(NamedTuple):
 
 
 @equipment("api_separator", source="api421", title="API oil–water separator")
-class ApiSeparator(Unit):
+class ApiSeparator(Carried, Unit):
     """Gravity oil–water separator: channels in which oil globules down to 150 µm rise to the surface.
 
     Oil is a dispersed species of the stream, with size classes, lighter than the liquid; heavier species go
     to the sludge. A class is removed in the ratio of its velocity to the overflow rate times the turbulence
     factor. All limits of API 421 are checks.
+
+    A liquid that does not follow Newton is given by its ``consistency``, viscosity at 1/s, with
+    ``flow_index``, ``yield_stress`` or both: globules then rise as spheres in it at rest, and the factor for
+    turbulence, which API has for water, is kept.
     """
 
     length: Length
@@ -108,11 +118,17 @@ class ApiSeparator(Unit):
         horizontal = feed.slurry_volume_flow / (self.channel_number * self.width * self.height)
         lightest = jnp.min(feed.mixture.densities("solids", feed.temperature))
         lighter = jnp.minimum(lightest, feed.liquid_density * (1.0 - 1e-9))
-        rise = rise_velocity_api(feed.liquid_density, lighter, feed.liquid_viscosity, self.droplet_diameter)
+        carrier, water, size = self.carrier, feed.liquid_density, self.droplet_diameter
+        if carrier is None:
+            rise = rise_velocity_api(water, lighter, feed.liquid_viscosity, size)
+        else:
+            rises = -carrier.falling(size, lighter, water, jnp.asarray(True))[0]
+            unsolved(rises > 0.0, type(self).card, reason=HOLDS)
+            rise = jnp.maximum(rises, 1e-12)
         return horizontal, rise, turbulence_factor_api(horizontal / rise)
 
     def outlets(self, inside: tuple[Any, Any, Any], feed: Stream) -> Skimmed:
-        velocity = class_velocities(feed, self.drag, self.hindrance)
+        velocity = class_velocities(feed, self.drag, self.hindrance, carrier=self.carrier)
         _horizontal, _rise, factor = inside
         loading = factor * feed.slurry_volume_flow / (self.channel_number * self.length * self.width)
         share = jnp.minimum(jnp.abs(velocity) / loading, 1.0)

@@ -12,6 +12,7 @@ from granum.core.errors import CaseError
 from granum.core.i18n import _
 from granum.core.kinds import DynamicViscosity, FlowIndex, YieldStress
 from granum.numerics import safe_power
+from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.non_newtonian import (
     AROUND,
     reynolds_number_power_law,
@@ -46,6 +47,15 @@ class Carrier(NamedTuple):
         speed = jnp.abs(alone)
         resisting = self.consistency * safe_power(speed / size, self.flow_index) + AROUND * held
         return alone, jnp.where(speed > 0.0, liquid * speed**2 / jnp.maximum(resisting, 1e-30), 0.0)
+
+    def between_plates(self, velocity: Any, gap: Any) -> Any:
+        """Viscosity of a liquid of Newton that would flow between wide plates with the same friction,
+        Pa s: a power law as it is, a yield stress added to it at the wall, which is a little too little.
+        """
+        n = self.flow_index
+        newton = 6.0 * velocity / gap  # shear rate at the wall of a liquid of Newton
+        wall = self.consistency * safe_power((2.0 * n + 1.0) / (3.0 * n) * newton, n)
+        return safe_divide(wall + (0.0 if self.yield_stress is None else self.yield_stress), newton)
 
 
 class Carried(eqx.Module):

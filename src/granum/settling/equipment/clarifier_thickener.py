@@ -85,7 +85,8 @@ class ClarifierThickener(Unit, Dynamic):
     What the thickening zone cannot pass at that underflow leaves over the weir (solids-flux theory, all sizes
     settling together). Blanket and sludge held are those of the settling-compression model, started empty and
     followed for a settling time, which should be several retention times of the sludge. Over a day of
-    changing loads use ``continuous_simulation``.
+    changing loads use ``continuous_simulation``. Whether the liquid follows Newton or not is in the settling
+    velocity, which is that of a test in it.
     """
 
     area: Area

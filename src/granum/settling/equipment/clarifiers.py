@@ -12,6 +12,7 @@ from granum.core import equipment
 from granum.core.constants import DAY, HOUR
 from granum.core.kinds import Angle, Area, Length, PositiveNumber, Ratio, VolumeFlow
 from granum.core.limits import Limit
+from granum.numerics.smooth import safe_divide
 from granum.settling.equipment.carriers import Carried
 from granum.settling.equipment.gravity import (
     DRAG,
@@ -265,12 +266,17 @@ _FLOWS = {
 
 
 @equipment("lamella", source="yao1970; degremont2007", title="Lamella settler")
-class Lamella(AbstractSettler):
+class Lamella(Carried, AbstractSettler):
     """Lamella settler: a pack of inclined plates, with the water against, with or across the sliding
     sludge.
 
     The critical velocity is Yao's. Practical limits: 45 to 60° from the horizontal, spacing 10 to 20 cm on
     raw water (down to 5 cm on clean duties), Reynolds number between the plates below 800.
+
+    A liquid that does not follow Newton is given by its ``consistency``, viscosity at 1/s, with
+    ``flow_index``, ``yield_stress`` or both. Yao's velocity between wide plates is the same whatever the
+    profile of the flow. Grains fall as in that liquid at rest, though between plates it is sheared, and
+    one that thins would let them fall faster: on the safe side.
     """
 
     plate_number: PositiveNumber
@@ -304,20 +310,18 @@ class Lamella(AbstractSettler):
         )
 
     def velocities(self, feed: Stream) -> Any:
-        return class_velocities(feed, self.drag, self.hindrance)
+        return class_velocities(feed, self.drag, self.hindrance, carrier=self.carrier)
 
     def removed(self, velocity: Any, critical: Any) -> Any:
         return grade_efficiency(velocity, critical, self.tank_number)
 
     def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+        speed, gap, carrier = self.plate_velocity(feed), self.plate_spacing, self.carrier
+        thick = feed.liquid_viscosity if carrier is None else carrier.between_plates(speed, gap)
         return super().measured(inside, outlets, figures, feed) | {
             "angle": jnp.rad2deg(self.plate_angle),
-            "spacing": self.plate_spacing,
-            "reynolds": self.plate_velocity(feed)
-            * 2.0
-            * self.plate_spacing
-            * feed.liquid_density
-            / feed.liquid_viscosity,
+            "spacing": gap,
+            "reynolds": safe_divide(2.0 * speed * gap * feed.liquid_density, thick),
         }
 
     def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:

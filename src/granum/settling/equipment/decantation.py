@@ -84,7 +84,8 @@ class CountercurrentDecantation(Unit):
     Every underflow carries the same liquor with the solid, whose share of what it mixes with is
     ``mixing_efficiency``; nothing dissolves or is adsorbed on the way. The solid goes down as far as flux
     theory lets it through the first stage, which the feed dilutes, and the others; what exceeds that leaves
-    with the overflow of the first. Solid and liquor of a stage have one temperature.
+    with the overflow of the first. Solid and liquor of a stage have one temperature. Whether the liquor
+    follows Newton or not is in the settling velocity, which is that of a test in it.
     """
 
     stage_count: Annotated[PositiveNumber, Within(1.0, 50.0)]

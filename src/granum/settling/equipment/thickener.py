@@ -53,7 +53,8 @@ class Thickener(Unit):
 
     Up to the limiting flux all solids leave with the underflow; what exceeds it leaves over the weir. All
     sizes settle together (zone settling), so every class splits alike. What is lighter than the liquid goes
-    over the weir.
+    over the weir. Whether the liquid follows Newton or not is in the settling velocity, which is that of a
+    test in it.
     """
 
     area: Area
