@@ -37,7 +37,7 @@ def test_command_of_the_issue():
 
 def test_water_drops_in_air_as_gunn_and_kinzer_measured():
     # Gunn and Kinzer, J. Meteorology 6 (1949) 243, table 2 (as two programs for clouds carry it), 20 °C and
-    # 1013 mbar: drops below 1 mm are nearly rigid spheres. Their smallest drop (0.1 mm, 0.27 m/s) is left out:
+    # 1013 mbar: drops below 1 mm are nearly rigid spheres. Their smallest (0.1 mm, 0.27 m/s) is left out:
     # 8 % faster than any sphere, against the later measurements of Beard and Pruppacher below.
     d = np.array([0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]) * 1e-3
     measured = np.array([0.72, 1.17, 1.62, 2.06, 2.47, 2.87, 3.27, 3.67, 4.03])
