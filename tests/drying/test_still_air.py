@@ -191,7 +191,7 @@ def test_a_rack_sees_the_room_past_the_next_tray() -> None:
     ("given", "says"),
     [
         ({"gas.gas_flow": "20 kg/h"}, "would be foggy"),
-        ({"gas.relative_humidity": "85 %", "temperature_room": "28 degC"}, "equilibrium moisture lies above"),
+        ({"equilibrium_moisture": "25 %"}, "equilibrium moisture lies above"),
         ({"gas.temperature": "3 degC"}, "would freeze"),
         ({"temperature_room": "105 degC"}, "as hot as the liquid boils"),
     ],
@@ -199,6 +199,15 @@ def test_a_rack_sees_the_room_past_the_next_tray() -> None:
 def test_what_it_cannot_do_is_said(given: dict[str, str], says: str) -> None:
     with pytest.raises(GranumError, match=says):
         gr.alone("drying.still_air_dryer", **given).solve()
+
+
+def test_an_isotherm_takes_the_humidity_of_the_room() -> None:
+    """The driest that potato gets is what its isotherm has at the humidity and temperature of the room."""
+    run = gr.alone("drying.still_air_dryer", isotherm="isotherm_potato", temperature_room="35 degC").solve()
+    (unit,) = run.units.values()
+    found = unit.values
+    told = gr.drying.isotherm_potato(found.relative_humidity, found.temperature_room)
+    assert found.equilibrium_moisture == pytest.approx(float(told), rel=1e-6)
 
 
 def test_random_rooms_close_and_stay_between_wet_bulb_and_room() -> None:

@@ -147,7 +147,8 @@ class RoomAir(NamedTuple):
         draft = (
             LAMINAR_PLATE * jnp.sqrt(jnp.maximum(reynolds, 1e-12)) * prandtl ** (1.0 / 3.0) / self.run
         ) * self.conductivity
-        return tuple(jnp.maximum(nu * self.conductivity / self.length, draft) for nu in (above, below))
+        film = self.conductivity / self.length
+        return jnp.maximum(above * film, draft), jnp.maximum(below * film, draft)
 
     def transfer(self, h: Any) -> Any:
         """Mass transfer coefficient on the difference of humidities, kg/(m² s)."""
