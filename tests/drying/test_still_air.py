@@ -17,6 +17,7 @@ import granum as gr
 from granum.core.errors import GranumError
 from granum.drying.equipment.still_air import StillAirDryer
 from granum.drying.formulas.still_air import nusselt_number_plate_unstable, view_factor_rack
+from granum.drying.isotherms.products import PRODUCTS
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
@@ -206,7 +207,7 @@ def test_an_isotherm_takes_the_humidity_of_the_room() -> None:
     run = gr.alone("drying.still_air_dryer", isotherm="isotherm_potato", temperature_room="35 degC").solve()
     (unit,) = run.units.values()
     found = unit.values
-    told = gr.drying.isotherm_potato(found.relative_humidity, found.temperature_room)
+    told = PRODUCTS["potato"]()(found.relative_humidity, found.temperature_room)
     assert found.equilibrium_moisture == pytest.approx(float(told), rel=1e-6)
 
 
