@@ -386,3 +386,18 @@ green = d.kiln_air(0.6)
 
 (sunny,) = (unit.values for unit in gr.alone("drying.solar_dryer").solve().units.values())
 spread = {net: float(d.drying_flux_penman(net, 2.0, 306.15, 0.4)) * 12 * 3600.0 for net in (0.0, 350.0)}
+
+
+@cache
+def barn(**settings):
+    """5 kg/h of herbs on nets in a barn: the example of the card with other settings."""
+    (unit,) = gr.alone("drying.still_air_dryer", **settings).solve().units.values()
+    return unit.values
+
+
+barns = {
+    "plain": barn(),
+    "solid": barn(sides=1),
+    "airy": barn(**{"gas.gas_flow": "10000 kg/h"}),
+    "heated": barn(temperature_room="35 degC"),
+}

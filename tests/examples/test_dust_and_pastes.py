@@ -56,11 +56,11 @@ def test_mixed_air_leaves_what_the_manual_says() -> None:
     assert run.figure("settling_chamber.removal_efficiency") == pytest.approx(expected, rel=0.03)
 
 
-@pytest.mark.parametrize(("drop", "fall"), [(0.5, 2.06), (1.0, 4.03), (2.0, 6.49)])
+@pytest.mark.parametrize(("drop", "fall"), [(0.5, 2.06), (0.8, 3.27), (1.0, 4.03), (1.4, 5.17), (2.0, 6.49)])
 def test_rain_of_drops_as_measured(drop: float, fall: float) -> None:
-    """Gunn and Kinzer's measured fall of drops (recalled), and each drop counted: N of them hang in the
-    tower, each sweeps its cross-section at its speed through the gas and hits (K/(K + 0.7))² of what is in
-    its way, K = ρ d² v/(9 η D).
+    """Gunn and Kinzer's measured fall of drops, as two programs for clouds carry their table, and each drop
+    counted: N of them hang in the tower, each sweeps its cross-section at its speed through the gas and hits
+    (K/(K + 0.7))² of what is in its way, K = ρ d² v/(9 η D).
     """
     d, D, density = 1.5e-6, drop * 1e-3, 2000.0
     gas, water, height = 3.0, 2e-3, 4.0

@@ -36,17 +36,16 @@ def test_command_of_the_issue():
 
 
 def test_water_drops_in_air_as_gunn_and_kinzer_measured():
-    # Gunn and Kinzer, J. Meteorology 6 (1949) 243, table 2: 20 °C, 1013 mbar; drops below 1 mm are nearly
-    # rigid spheres. Their smallest
-    # drop (0.1 mm, 0.27 m/s) is left out: 8 % faster than any sphere, against the later measurements of Beard
-    # and Pruppacher below.
-    d = np.array([0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0]) * 1e-3
-    measured = np.array([0.72, 1.17, 1.62, 2.06, 2.47, 3.27, 4.03])
+    # Gunn and Kinzer, J. Meteorology 6 (1949) 243, table 2 (as two programs for clouds carry it), 20 °C and
+    # 1013 mbar: drops below 1 mm are nearly rigid spheres. Their smallest (0.1 mm, 0.27 m/s) is left out:
+    # 8 % faster than any sphere, against the later measurements of Beard and Pruppacher below.
+    d = np.array([0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]) * 1e-3
+    measured = np.array([0.72, 1.17, 1.62, 2.06, 2.47, 2.87, 3.27, 3.67, 4.03])
     v = terminal_velocity(
         particle_diameter=d, particle_density=998.2, fluid_density=1.204, dynamic_viscosity=1.816e-5
     )
-    np.testing.assert_allclose(v[:-1], measured[:-1], rtol=0.025)  # last digit 1.4 % at 0.2 mm
-    np.testing.assert_allclose(v[-1], measured[-1], rtol=0.04)  # flattening begins
+    np.testing.assert_allclose(v[:-2], measured[:-2], rtol=0.025)  # last digit 1.4 % at 0.2 mm
+    np.testing.assert_allclose(v[-2:], measured[-2:], rtol=0.04)  # flattening begins
 
 
 def test_small_drops_in_air_as_beard_and_pruppacher_measured():

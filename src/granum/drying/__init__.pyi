@@ -138,6 +138,12 @@ from granum.drying.equipment.spouted_bed import (
 from granum.drying.equipment.spray import (
     SprayDryer as SprayDryer,
 )
+from granum.drying.equipment.still_air import (
+    Room as Room,
+    StillAirDryer as StillAirDryer,
+    StillAirFigures as StillAirFigures,
+    StillDried as StillDried,
+)
 from granum.drying.equipment.tray import (
     Batch as Batch,
     TrayDried as TrayDried,
@@ -307,6 +313,13 @@ from granum.drying.formulas.solar import (
     chimney_draft as chimney_draft,
     drying_flux_penman as drying_flux_penman,
     solar_collector as solar_collector,
+)
+from granum.drying.formulas.still_air import (
+    RoomAir as RoomAir,
+    StillSurface as StillSurface,
+    nusselt_number_plate_stable as nusselt_number_plate_stable,
+    nusselt_number_plate_unstable as nusselt_number_plate_unstable,
+    view_factor_rack as view_factor_rack,
 )
 from granum.drying.formulas.storage import (
     GrowthMargin as GrowthMargin,

@@ -40,15 +40,17 @@ def applications(
         "flash dryer",
         "fluidized-bed dryer",
         "tray oven",
+        "freeze dryer",
         "paddle or screw dryer",
     ] = "any",
 ) -> Applications:
-    """Forty products of industry, each with its dryer and its moisture before and after, to start a
+    """Products of industry, each with its dryer and its moisture before and after, to start a
     calculation from.
 
     Moistures are common ranges on the wet basis; ``evaporation_per_product`` is the water evaporated per
     mass of dried product, at the middle of the ranges. The course notes' tables IV.1 to IV.21, which take
-    them from the brochure of ADEME and CETIAT (source not opened).
+    them from the brochure of ADEME and CETIAT (source not opened); for whey, peas, mushrooms and strawberries
+    one of the two figures comes from elsewhere, as the file of the table says.
 
     >>> found = applications("silo dryer")
     >>> found.product[0], round(float(found.evaporation_per_product[0]), 3)

@@ -64,7 +64,8 @@ class SprayDryer(Dryer):
     Fines that come back at the port ``fines`` all stick to drops at the atomizer, in proportion to these: the
     agglomerates are larger and start less wet. An ``explosion_vent`` is that of the chamber. With the glass
     transition of the dry solid a check tells how much of the powder would stay where it meets a wall; how
-    much of it meets one is left out, and so is what it leaves there.
+    much of it meets one is left out, and so is what it leaves there. A bed that dries on, inside the chamber
+    or behind it, is a unit of its own: the product goes to it, its exhaust joins that of the tower.
     """
 
     length: Length
