@@ -34,16 +34,15 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.batch import BatchOutlets
+from granum.crystallization.equipment.beside import heard_beside, is_other_form, refuse_other_system
 from granum.crystallization.equipment.rival_batch import Contested, Cut, RivalBatch
 from granum.crystallization.equipment.roles import Roles, feed_of
 from granum.crystallization.formulas.nucleation import NoNucleation
-from granum.crystallization.formulas.solubility_laws import LibrarySolubility
 from granum.crystallization.inside_charts import drawn_forms
 from granum.crystallization.kinds import Dissolution, Growth, Nucleation, Solubility
-from granum.crystallization.population.rivals import Form, Rivals
+from granum.crystallization.population.rivals import Form, Rivals, Row
 from granum.crystallization.vessels.crystals import Crystal
 from granum.crystallization.vessels.enantiomers import Purity, pure_share, pure_until
-from granum.materials.library import session
 from granum.numerics.smooth import safe_divide
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
@@ -128,7 +127,7 @@ class PolymorphCrystallizer(RivalBatch):
         given = [names[mixture.index("solids", n)] if n else "" for n in (self.solid, self.solid_stable)]
         made_of = {s.name: s.composition for s in mixture.solids}
         twins = [n for n in names if list(made_of.values()).count(made_of[n]) > 1]
-        other = [n for n in twins if n not in given and _is_other_form(mixture, n)]
+        other = [n for n in twins if n not in given and is_other_form(mixture.materials, n)]
         one = given[0] or next((n for n in (*other, *twins) if n != given[1]), "")
         two = given[1] or next((n for n in twins if n != one and made_of[n] == made_of.get(one)), "")
         if not one or not two:
@@ -136,7 +135,7 @@ class PolymorphCrystallizer(RivalBatch):
                 _(
                     "Two crystals of one substance are needed among the solids, such as 'L-glutamic acid "
                     "alpha' and 'L-glutamic acid'; the mixture has {solids}. A form of one's own is a table "
-                    '[solute."NAME"] with \'form_of\'.'
+                    "[solute.\"NAME\"] with 'form_of'."
                 ).format(solids=", ".join(names) or "—")
             )
         if one == two:
@@ -145,14 +144,6 @@ class PolymorphCrystallizer(RivalBatch):
             raise CaseError(
                 _("'{one}' and '{other}' are not two forms of one substance.").format(one=one, other=two)
             )
-        for law, own, foe in ((self.solubility, one, two), (self.solubility_law_stable, two, one)):
-            if _is_that_of(law, foe) and not _is_that_of(law, own):
-                raise CaseError(
-                    _(
-                        "The solubility given for '{name}' is that of '{other}': change the two "
-                        "solubilities round, or name the crystals by 'solid' and 'solid_stable'."
-                    ).format(name=own, other=foe)
-                )
         return one, two
 
     def _cuts(self) -> tuple[Cut, Cut]:
@@ -177,11 +168,18 @@ class PolymorphCrystallizer(RivalBatch):
         )
         return Rivals(forms, feed.liquid_density, (0.0, self.cross_nucleation))
 
-    def inside(self, feed: Stream) -> Contested:
-        made = super().inside(feed)
-        saturated = made.course.saturated
-        unsolved(jnp.any(saturated[:, 0] >= saturated[:, 1]), type(self).card, reason=ROUND)
-        return made
+    def _roles(self, mixture: Mixture) -> tuple[Roles, Roles]:
+        found = super()._roles(mixture)
+        for law, role in zip((self.solubility, self.solubility_law_stable), found, strict=True):
+            refuse_other_system(law, mixture, role)
+        return found
+
+    def _heard(self, course: Row, feed: Stream, found: tuple[Roles, Roles]) -> None:
+        card = type(self).card
+        unsolved(jnp.any(course.saturated[:, 0] >= course.saturated[:, 1]), card, reason=ROUND)
+        states = course.temperature, course.ratios[:, 0], jnp.ones_like(course.temperature)
+        for law, role in zip((self.solubility, self.solubility_law_stable), found, strict=True):
+            heard_beside(law, feed.mixture, role, feed.liquid, states, card)
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         if not float(inlets["feed"].liquid_flow) > 0.0:
@@ -233,19 +231,3 @@ class PolymorphCrystallizer(RivalBatch):
 def _fed(feed: Stream, found: tuple[Roles, Roles]) -> Any:
     """All there is of the substance, kg/s."""
     return feed.liquid[found[0].solute] + sum(jnp.sum(feed_of(feed, role).crystals) for role in found)
-
-
-def _is_other_form(mixture: Mixture, crystal: str) -> bool:
-    """Whether the library has a crystal as another form of a solute."""
-    entries = mixture.materials.entries("solute").values()
-    return any(e.form_of and any(b.crystal == crystal for b in e.branches) for e in entries)
-
-
-def _is_that_of(law: Any, crystal: str) -> bool:
-    """Whether a solubility of the library is that of a crystal."""
-    if not isinstance(law, LibrarySolubility):
-        return False
-    if law.crystal:
-        return law.crystal == crystal
-    known = law.materials or session()
-    return any(b.crystal.name == crystal for b in known.solute(law.solute).branches)

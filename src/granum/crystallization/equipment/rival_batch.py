@@ -113,6 +113,9 @@ class RivalBatch(Stirred, Unit):
                 )
         return found
 
+    def _heard(self, course: Row, feed: Stream, found: tuple[Roles, Roles]) -> None:  # noqa: B027
+        """Record what a reader must know of the batch; nothing, where nothing is asked."""
+
     def inside(self, feed: Stream) -> Contested:
         found, edges = self._roles(feed.mixture), jnp.asarray(feed.mixture.edges)
         one, other = (
@@ -144,6 +147,7 @@ class RivalBatch(Stirred, Unit):
         )
         for law in {id(form.solubility): form.solubility for form in rivals.forms}.values():
             law(course.temperature)  # once more where its flags are heard
+        self._heard(course, feed, found)
         kept = jnp.all(course.masses[-1] >= (1.0 - SLACK) * held)
         unsolved(kept | (given <= 0.0), type(self).card, reason=SEED_GONE)
         return Contested(end, course, times, W, found, held)
@@ -173,8 +177,6 @@ class RivalBatch(Stirred, Unit):
             "largest": product.size_fractions[-1],
         } | self.stirrer_measured(product, volume)
 
-    def drawn(
-        self, inside: Contested, outlets: BatchOutlets, figures: Any, feed: Stream
-    ) -> dict[str, Any]:
+    def drawn(self, inside: Contested, outlets: BatchOutlets, figures: Any, feed: Stream) -> dict[str, Any]:
         stirrer = self.stirrer_power(outlets.product, figures.volume)
         return thermal(outlets.heat_duty, feed, outlets.product) | stirrer
