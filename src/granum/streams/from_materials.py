@@ -2,10 +2,10 @@
 
 A liquid is a fluid of the library or a solute dissolved in one of them, in the first that it is known in; a
 solid is a solid of the library, a crystal of one of those solutes when it is one of its branches or of
-another form of it (a polymorph), or, as ``NAME in crystals``, what crystals have taken up of a liquid; a gas is a fluid of the library. Enthalpies are
-zero for the liquid solvent, dissolved solutes and permanent gases at 0 °C, so that vapor carries its heat of
-vaporization, and a crystal lies lower by its heat of crystallization, or by that of sublimation where its
-vapor is among the gases.
+another form of it (a polymorph), or, as ``NAME in crystals``, what crystals have taken up of a liquid; a gas
+is a fluid of the library. Enthalpies are zero for the liquid solvent, dissolved solutes and permanent gases
+at 0 °C, so that vapor carries its heat of vaporization, and a crystal lies lower by its heat of
+crystallization, or by that of sublimation where its vapor is among the gases.
 """
 
 from __future__ import annotations

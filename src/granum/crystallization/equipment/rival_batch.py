@@ -113,7 +113,7 @@ class RivalBatch(Stirred, Unit):
                 )
         return found
 
-    def _heard(self, course: Row, feed: Stream, found: tuple[Roles, Roles]) -> None:  # noqa: B027
+    def _heard(self, course: Row, feed: Stream, found: tuple[Roles, Roles]) -> None:
         """Record what a reader must know of the batch; nothing, where nothing is asked."""
 
     def inside(self, feed: Stream) -> Contested:
