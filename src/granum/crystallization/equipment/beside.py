@@ -156,7 +156,7 @@ def refuse_other_system(law: Any, mixture: Mixture, found: Roles) -> None:
         raise CaseError(
             _(
                 "The solubility of the library is that of {system}, not of the crystal '{crystal}', which is "
-                "another form: name its own as 'solute', or another crystal."
+                "another form: give its own, or another crystal."
             ).format(system=system.label, crystal=solid)
         )
 
