@@ -134,8 +134,8 @@ class PolymorphCrystallizer(RivalBatch):
             raise CaseError(
                 _(
                     "Two crystals of one substance are needed among the solids, such as 'L-glutamic acid "
-                    "alpha' and 'L-glutamic acid'; the mixture has {solids}. A form of one's own is a table "
-                    "[solute.\"NAME\"] with 'form_of'."
+                    "alpha' and 'L-glutamic acid'; the mixture has {solids}. A form of one's own is a "
+                    "solute with 'form_of'."
                 ).format(solids=", ".join(names) or "—")
             )
         if one == two:

@@ -39,8 +39,8 @@ def settled(trial: Trial, ratio: Any, highest: Any, rounds: int = 2) -> tuple[An
     """Composition at the end of a step and the weights of the end with which it was found.
 
     The first round takes the end alone, which never crosses saturation; each further one fits the weights to
-    how stiff the step was, and takes the end alone for a rate that has turned. Where the last round has turned
-    one, there is one more. A last Newton step makes the balance exact.
+    how stiff the step was, and takes the end alone for a rate that has turned. Where the last round has
+    turned one, there is one more. A last Newton step makes the balance exact.
     """
     before = trial.rates_before()
     implicit = [jnp.ones(()) for _rate in before]
