@@ -298,6 +298,16 @@ washed = {
 }
 frozen_layers = float(layers.layer_flow / layers.product_mass_flow)
 
+# ---- two forms
+alpha_fed = 4.0 / 97.7
+forms = {
+    hours: alone("crystallization.polymorph_crystallizer", duration=f"{hours} hour")
+    .solve()
+    .units["polymorph_crystallizer"]
+    .values
+    for hours in (1, 3, 5, 10)
+}
+
 # ---- mirror images
 mandelic = c.eutectic_racemate("24.5 kJ/mol", 404.75, "25.6 kJ/mol", 391.95)
 mandelic_stability = c.gibbs_energy_racemate("24.5 kJ/mol", 404.75, "25.6 kJ/mol", 391.95, temperature=391.95)

@@ -21,6 +21,7 @@ from granum.crystallization.equipment.dissolver import Dissolver
 from granum.crystallization.equipment.extractive import ExtractiveCrystallizer
 from granum.crystallization.equipment.hydroxides import HydroxidePrecipitator
 from granum.crystallization.equipment.layer_melt import LayerMeltCrystallizer
+from granum.crystallization.equipment.polymorphs import PolymorphCrystallizer
 from granum.crystallization.equipment.precipitator import Precipitator
 from granum.crystallization.equipment.preferential import PreferentialCrystallizer
 from granum.crystallization.equipment.sublimation import Desublimer, Sublimer
@@ -40,6 +41,7 @@ from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
 THREONINE = ("L-threonine", "D-threonine")
+ALPHA, BETA = "L-glutamic acid alpha", "L-glutamic acid"
 EXTRACTED = ("water", "sodium chloride", "ethanol", "adipic acid")
 IMPURE = ("water", "potassium nitrate", "sodium chloride")
 
@@ -161,6 +163,20 @@ def _mirrored(mixture: Mixture, x: Any) -> dict[str, Stream]:
     }
 
 
+def _alpha(mixture: Mixture, x: Any) -> dict[str, Stream]:
+    """0.1 to 10 kg/s of water with up to 5 % of glutamic acid, crystals of alpha, and of beta in every second
+    one.
+    """
+    water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
+    alpha = 0.05 * x[3] * shares(x[4], x[5], classes)
+    beta = 0.01 * x[7] * (x[7] > 0.5) * shares(x[5], x[4], classes)
+    return {
+        "feed": empty(mixture, 290.0 + 40.0 * x[2]).replace(
+            solid=water * jnp.stack([alpha, beta]), liquid=water * jnp.stack([1.0, 0.05 * x[1]])
+        )
+    }
+
+
 def _subliming(mixture: Mixture, x: Any) -> dict[str, Stream]:
     """0.01 to 1 kg/s of nitrogen, or none, with vapor, crystals and sand."""
     nitrogen, classes = 10.0 ** (-2.0 + 2.0 * x[0]), len(mixture.sizes)
@@ -182,6 +198,7 @@ def mixed(classes: int) -> dict[str, Case]:
 
     edges = np.geomspace(5e-6, 4e-3, classes + 1)
     mirrored = mixture_of(["water", *THREONINE], THREONINE, ["water"], edges)
+    forms = mixture_of(["water", BETA], [ALPHA, BETA], ["water"], edges)
     subliming = mixture_of([], ["naphthalene", "quartz"], ["nitrogen", "naphthalene"], edges)
 
     def dissolving(name: str) -> Case:
@@ -306,6 +323,23 @@ def mixed(classes: int) -> dict[str, Case]:
                 seed_mass_per_solvent=0.01 * u[5],
                 counter_nucleation=u[2],
                 racemate_solubility_ratio=1.4 + u[4],
+            ),
+        ),
+        "polymorphs": Case(
+            forms,
+            _alpha,
+            lambda f, u: PolymorphCrystallizer(
+                PowerCooling(325.0, 285.0 + 40.0 * u[0], 1800.0),
+                solubility=LibrarySolubility(ALPHA),
+                solubility_law_stable=LibrarySolubility(BETA),
+                growth=PowerLawGrowth(10.0 ** (-8.0 + 2.0 * u[1]), 1.0 + u[2]),
+                growth_stable=PowerLawGrowth(10.0 ** (-9.0 + 2.0 * u[3]), 1.0),
+                dissolution=PowerLawDissolution(10.0 ** (-6.0 + 2.0 * u[4])),
+                nucleation_stable=PowerLawNucleation(10.0 ** (4.0 + 4.0 * u[3]), 1.0 + u[4]),
+                duration=14400.0,
+                cross_nucleation=0.1 * u[2],
+                seed_mass_stable=0.001 * u[5],
+                volume_shape_factor_stable=0.1,
             ),
         ),
         "dissolver": Case(

@@ -392,6 +392,7 @@ ELSEWHERE = {
     "crystallization.hydroxide_precipitator",
     "crystallization.impurity_uptake",  # needs species in crystals: test_uptake
     "crystallization.desublimer",  # need a solid among the gases: test_sublimation
+    "crystallization.polymorph_crystallizer",  # needs two forms: test_polymorph_crystallizer
     "crystallization.precipitator",
     "crystallization.preferential_crystallizer",  # needs two enantiomers: test_enantiomers
     "crystallization.sublimer",

@@ -124,6 +124,10 @@ from granum.crystallization.equipment.oslo import (
     OsloCrystallizer as OsloCrystallizer,
     OsloFigures as OsloFigures,
 )
+from granum.crystallization.equipment.polymorphs import (
+    PolymorphCrystallizer as PolymorphCrystallizer,
+    PolymorphFigures as PolymorphFigures,
+)
 from granum.crystallization.equipment.precipitator import (
     Precipitating as Precipitating,
     Precipitator as Precipitator,
@@ -133,7 +137,11 @@ from granum.crystallization.equipment.precipitator import (
 from granum.crystallization.equipment.preferential import (
     PreferentialCrystallizer as PreferentialCrystallizer,
     ResolutionFigures as ResolutionFigures,
-    Resolved as Resolved,
+)
+from granum.crystallization.equipment.rival_batch import (
+    Contested as Contested,
+    Cut as Cut,
+    RivalBatch as RivalBatch,
 )
 from granum.crystallization.equipment.roles import (
     Roles as Roles,

@@ -93,3 +93,40 @@ def drawn_resolution(times: Any, course: Row, leaving: Any) -> dict[str, Any]:
             (TEMPERATURE, [Curve(_("temperature"), course.temperature, "HEAT", "dash")]),
         ),
     }
+
+
+def drawn_forms(times: Any, course: Row) -> dict[str, Any]:
+    """Crystals of two forms of one substance with the share of the stable one, and what is dissolved between
+    both solubilities.
+    """
+    old, new = np.maximum(np.asarray(course.masses), 0.0).T
+    whole = old + new
+    share = np.where(whole > 0.0, new / np.where(whole > 0.0, whole, 1.0), np.nan)
+    saturated = np.asarray(course.saturated)
+    return {
+        _("Crystals of both forms over time"): drawn_along(
+            Axis("time", "Time"),
+            times,
+            (
+                Axis("crystal_mass_per_solvent", "MassRatio", label=_("crystals per solvent")),
+                [Curve(_("metastable form"), old, "GAS"), Curve(_("stable form"), new, "SOLID")],
+            ),
+            (
+                Axis("stable_fraction", "Fraction", "percent"),
+                [Curve(_("share of the stable form"), share, "ACCENT", "dash")],
+            ),
+        ),
+        _("What is dissolved, between both solubilities"): drawn_along(
+            Axis("time", "Time"),
+            times,
+            (
+                CONTENT,
+                [
+                    Curve(_("dissolved"), np.asarray(course.ratios)[:, 0], "LIQUID"),
+                    Curve(_("solubility of the metastable form"), saturated[:, 0], "GAS", "dot"),
+                    Curve(_("solubility of the stable form"), saturated[:, 1], "SOLID", "dot"),
+                ],
+            ),
+            (TEMPERATURE, [Curve(_("temperature"), course.temperature, "HEAT", "dash")]),
+        ),
+    }

@@ -360,6 +360,7 @@ def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Soli
         heat_capacity_law=heat_capacity,
         solute_heat_capacity=nan,
         activity_law=_activity(key, entry, solvent),
+        form_of=entry.form_of,
     )
     if saturated_heats.is_measured(system):
         stated = [b.heat_at_saturation is not None for b in entry.branches]

@@ -207,6 +207,11 @@ class SoluteEntry(_Named):
 
     molar_mass: MolarMass
     solvent: str = "water"
+    form_of: str = Field(
+        default="",
+        description="the solute, in the same solvent, of which this is another crystal form: its crystals "
+        "then dissolve to that one",
+    )
     branches: list[BranchEntry] = Field(min_length=1)
     density: list[float] | None = Field(default=None, min_length=5, max_length=5)
     viscosity: list[float] | None = Field(default=None, min_length=6, max_length=6)

@@ -144,6 +144,7 @@ class SoluteSystem(eqx.Module):
     activity_law: water activity, of (temperature, solute per solvent).
     mixing_law: heat of mixing over solvent and solute counted apart, of (temperature, kg of solute, kg of
         solvent), J; None where it is left out.
+    form_of: the solute of which the crystals here are another form; empty where they are its own.
     """
 
     name: str = eqx.field(static=True)
@@ -158,6 +159,7 @@ class SoluteSystem(eqx.Module):
     solute_heat_capacity: float
     activity_law: Any
     mixing_law: Any = None
+    form_of: str = eqx.field(static=True, default="")
 
     @property
     def label(self) -> str:

@@ -1,11 +1,11 @@
 """A mixture from material names: what a case file's ``[mixture]`` table means.
 
 A liquid is a fluid of the library or a solute dissolved in one of them, in the first that it is known in; a
-solid is a solid of the library, a crystal of one of those solutes when it is one of its branches, or, as
-``NAME in crystals``, what crystals have taken up of a liquid; a gas is a fluid of the library. Enthalpies are
-zero for the liquid solvent, dissolved solutes and permanent gases at 0 °C, so that vapor carries its heat of
-vaporization, and a crystal lies lower by its heat of crystallization, or by that of sublimation where its
-vapor is among the gases.
+solid is a solid of the library, a crystal of one of those solutes when it is one of its branches or of
+another form of it (a polymorph), or, as ``NAME in crystals``, what crystals have taken up of a liquid; a gas
+is a fluid of the library. Enthalpies are zero for the liquid solvent, dissolved solutes and permanent gases
+at 0 °C, so that vapor carries its heat of vaporization, and a crystal lies lower by its heat of
+crystallization, or by that of sublimation where its vapor is among the gases.
 """
 
 from __future__ import annotations
@@ -75,8 +75,9 @@ def mixture_of(
     dissolved = tuple(
         _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
     )
+    crystallizing = _crystallizing(known, systems)
     made = [
-        _crystal(name, systems)
+        _crystal(name, crystallizing)
         or _double(known, name, systems)
         or _taken_up(name, dissolved)
         or _sublimed(known, name, gases)
@@ -274,8 +275,24 @@ def _apparent(system: SoluteSystem, T: Any) -> tuple[Any, Any]:
     return ratio / (whole - 1.0 / system.solvent.liquid_density(T)), system.solute_heat_capacity
 
 
-def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
-    for solute_name, system in systems.items():
+def _crystallizing(
+    known: Library, systems: Mapping[str, SoluteSystem]
+) -> list[tuple[str, SoluteSystem, SoluteSystem]]:
+    """Each dissolved solute and its system with those whose crystals dissolve to it: itself, then its other
+    crystal forms.
+    """
+    forms = [known.solute(key) for key, entry in known.entries("solute").items() if entry.form_of]
+    others = [
+        (name, system, form)
+        for name, system in systems.items()
+        for form in forms
+        if form.form_of == system.name and form.solvent.name == system.solvent.name
+    ]
+    return [*((name, system, system) for name, system in systems.items()), *others]
+
+
+def _crystal(name: str, crystallizing: list[tuple[str, SoluteSystem, SoluteSystem]]) -> Species | None:
+    for solute_name, dissolved, system in crystallizing:
         for branch in system.branches:
             if branch.crystal.name == name:
                 anhydrous = 1.0 / float(branch.hydrate_ratio)
@@ -285,11 +302,19 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
                     tuple(part for part in parts if part[1] > 0),
                     _polynomial(branch.crystal.density),
                     _polynomial(branch.crystal.heat_capacity),
-                    float(once(partial(_crystal_enthalpy, system, name), ZERO_CELSIUS)),
+                    float(once(partial(_crystal_enthalpy, system, name), ZERO_CELSIUS))
+                    + anhydrous * float(once(partial(_apart, dissolved, system), ROOM)),
                     float(branch.crystal.molar_mass),
                     CONDENSED,
                 )
     return None
+
+
+def _apart(dissolved: SoluteSystem, system: SoluteSystem, T: Any) -> Any:
+    """What the enthalpy of the dissolved solute is above that in the system of another crystal form, which
+    may have another heat capacity.
+    """
+    return dissolved.solute_enthalpy(T) - system.solute_enthalpy(T)
 
 
 def _double(known: Library, name: str, systems: Mapping[str, SoluteSystem]) -> Species | None:

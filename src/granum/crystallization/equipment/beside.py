@@ -128,7 +128,9 @@ def _logs(made: tuple[str, ...], materials: Library, crystal: int, T: Any, molal
 
 
 def refuse_other_system(law: Any, mixture: Mixture, found: Roles) -> None:
-    """Refuse the library's solubility of another solute, or in another solvent, than those of the mixture."""
+    """Refuse the library's solubility of another solute, in another solvent or over another crystal form than
+    those of the mixture.
+    """
     if isinstance(law, AntisolventSolubility):
         law = law.pure_solubility
     if not isinstance(law, LibrarySolubility):
@@ -138,7 +140,8 @@ def refuse_other_system(law: Any, mixture: Mixture, found: Roles) -> None:
         return
     system, names = known.solute(law.solute), mixture.materials.names
     solute, solvent = (mixture.liquids[i].name for i in (found.solute, found.solvent))
-    other = solute in names("solute") and mixture.materials.solute(solute).name != system.name
+    own = system.form_of or system.name
+    other = solute in names("solute") and mixture.materials.solute(solute).name not in (system.name, own)
     elsewhere = solvent in names("fluid") and mixture.materials.fluid(solvent).name != system.solvent.name
     if other or elsewhere:
         raise CaseError(
@@ -147,6 +150,21 @@ def refuse_other_system(law: Any, mixture: Mixture, found: Roles) -> None:
                 "law of your own, such as 'polynomial_solubility' or 'apelblat_solubility'."
             ).format(system=system.label, solute=solute, solvent=solvent)
         )
+    solid = mixture.solids[found.solid].name
+    form = system.form_of or is_other_form(mixture.materials, solid)
+    if form and all(branch.crystal.name != solid for branch in system.branches):
+        raise CaseError(
+            _(
+                "The solubility of the library is that of {system}, not of the crystal '{crystal}', which is "
+                "another form: give its own, or another crystal."
+            ).format(system=system.label, crystal=solid)
+        )
+
+
+def is_other_form(materials: Library, crystal: str) -> bool:
+    """Whether a library has a crystal as another form of a solute."""
+    entries = materials.entries("solute").values()
+    return any(e.form_of and any(b.crystal == crystal for b in e.branches) for e in entries)
 
 
 def solubility_beside(

@@ -39,8 +39,8 @@ def settled(trial: Trial, ratio: Any, highest: Any, rounds: int = 2) -> tuple[An
     """Composition at the end of a step and the weights of the end with which it was found.
 
     The first round takes the end alone, which never crosses saturation; each further one fits the weights to
-    how stiff the step was, and takes the end alone for a rate that has turned. A last Newton step makes
-    the balance exact.
+    how stiff the step was, and takes the end alone for a rate that has turned. Where the last round has
+    turned one, there is one more. A last Newton step makes the balance exact.
     """
     before = trial.rates_before()
     implicit = [jnp.ones(()) for _rate in before]
@@ -55,13 +55,19 @@ def settled(trial: Trial, ratio: Any, highest: Any, rounds: int = 2) -> tuple[An
 
     first = stiffness(ratio)
 
-    def attempt(_round: Any, tried: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
-        weights = tried[0]
+    def tried(weights: list[Any]) -> tuple[list[Any], list[Any], Any, Any]:
         c = solved(weights)
         usual = fitted_weight(jnp.maximum(first, stiffness(c)))
-        better = [jnp.where(a * b > 0.0, usual, 1.0) for a, b in zip(before, trial.rates(c), strict=True)]
-        return better, weights, c
+        rates = trial.rates(c)
+        better = [jnp.where(a * b > 0.0, usual, 1.0) for a, b in zip(before, rates, strict=True)]
+        turned = jnp.any(jnp.stack([a * b < 0.0 for a, b in zip(before, rates, strict=True)]))
+        return better, weights, c, turned
 
-    _next, weights, c = lax.fori_loop(0, rounds, attempt, (implicit, implicit, ratio))
+    def attempt(number: Any, found: tuple[Any, Any, Any, Any]) -> tuple[Any, Any, Any, Any]:
+        needed = (number < rounds) | found[3]
+        return lax.cond(needed, lambda: tried(found[0]), lambda: found)
+
+    begun = (implicit, implicit, ratio + 0.0 * highest, jnp.zeros((), dtype=bool))
+    _next, weights, c, _turned = lax.fori_loop(0, rounds + 1, attempt, begun)
     value, slope = jax.jvp(lambda c: trial.left(c, weights) - c, (c,), (jnp.ones(()),))
     return c - value / slope, weights

@@ -110,7 +110,7 @@ def polymorph_batch(
     for law in (solubility, solubility_law_stable):
         check_charge(seed_size, seed_width, steps, solute_per_solvent, law, temperatures)
     gaps = np.array([float(solubility(T)) - float(solubility_law_stable(T)) for T in temperatures])
-    if (gaps <= 0.0).all():
+    if (gaps < 0.0).all():
         raise InputError(
             _(
                 "The stable form dissolves more than the other at every temperature of the batch: change "
