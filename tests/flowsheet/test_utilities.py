@@ -51,6 +51,17 @@ def test_the_line_is_the_sum_of_its_units(starch) -> None:
     assert line["greenhouse_gas_rate"]["value"] == pytest.approx(gas, rel=1e-9)
 
 
+def test_what_is_taken_is_asked_for_by_the_names_that_studies_use(starch) -> None:
+    told = starch.as_json()
+    fan = told["units"]["dryer"]["utilities"]["electric_power_fan"]["value"]
+    assert starch.figure("dryer.electric_power_fan") == pytest.approx(fan)
+    assert starch.figure("utilities.energy_per_water") == starch.utilities.energy_per_water
+    with pytest.raises(InputError, match=r"'utilities\.energy_per_watr'.*'utilities\.energy_per_water'"):
+        starch.figure("utilities.energy_per_watr")
+    with pytest.raises(InputError, match="'dryer' is not a result"):
+        starch.figure("dryer")
+
+
 def test_convective_drying_takes_what_the_notes_say(starch) -> None:
     """Table III.2 of the notes on drying: 3 300 to 6 500 kJ/kg, 1.5 to 3 times the heat of vaporization."""
     assert 3.3e6 < starch.utilities.energy_per_water < 6.5e6

@@ -42,6 +42,7 @@ from granum.flowsheet.specifications import Target, varied
 from granum.flowsheet.stream_figures import changed
 from granum.flowsheet.utilities import (
     FIGURES,
+    UTILITIES,
     WATER,
     Totals,
     by_carrier,
@@ -401,15 +402,23 @@ class Run:
         return schedule({name: (u.model, u.values) for name, u in self.units.items()})
 
     def figure(self, path: str) -> float:
-        """One result, ``unit.result``, SI."""
-        unit, _dot, name = path.partition(".")
-        if unit not in self.units or not hasattr(self.units[unit].values, name):
+        """One result, SI: ``unit.result``, what a unit takes of a utility, as ``unit.electric_power_fan``, or
+        a total of the line, as ``utilities.energy_per_water``.
+        """
+        known: dict[str, Any] = {}
+        for unit, report in self.units.items():
+            told = (*report.utilities(), *report.figures())
+            known |= {f"{unit}.{p.name}": value for p, value in told}
+        if path.startswith(f"{UTILITIES}."):
+            known |= {f"{UTILITIES}.{p.name}": value for p, value in self.totals()}
+        if path not in known:
             message = _("'{path}' is not a result of this line.").format(path=path)
-            known = [f"{unit}.{result}" for unit, own in self.units.items() for result in own.values._fields]
             if close := nearest(path, known):
                 message += " " + _("Did you mean '{close}'?").format(close=close)
             raise InputError(message, path=path)
-        return float(getattr(self.units[unit].values, name))
+        if known[path] is None:
+            raise InputError(_("'{path}' has no value in this line.").format(path=path), path=path)
+        return float(known[path])
 
     def sought(self) -> Iterator[tuple[str, Parameter, float]]:
         """What design specifications found: its path, what it is, its value."""

@@ -31,6 +31,7 @@ from granum.streams.utilities import COLD
 
 GAS_OUTLETS = ("exhaust", "vapor", "gas", "warmed_air")
 HOTTEST_DRYING = 453.15  # K, up to which the notes give a heat of vaporization
+UTILITIES = "utilities"  # before the name of a total, in the place of that of a unit
 DUSTY = 1e-4  # kg of solid per kg of gas, a tenth of a gram per cubic meter: below it one cleans a gas
 REMOVED = ("evaporation_rate", "evaporation")
 """Figures by which a dryer or an evaporator, or a crystallizer, says how much water it removes."""

@@ -35,7 +35,7 @@ from granum.flowsheet.stream_figures import (
     stream_parameter,
     told_of,
 )
-from granum.flowsheet.utilities import FIGURES, REMOVED, WATER, totals
+from granum.flowsheet.utilities import FIGURES, REMOVED, UTILITIES, WATER, totals
 from granum.studies.subjects import (
     FINE,
     LOST,
@@ -51,8 +51,6 @@ from granum.studies.subjects import (
     Variable,
     split_index,
 )
-
-UTILITIES = "utilities"  # of the line as a whole
 
 
 @dataclass(frozen=True)
