@@ -56,7 +56,10 @@ def figure(line: Flowsheet, sheets: Mapping[str, Any], streams: Mapping[str, Str
     if told is not None:
         return stream_figure(streams[told[0].name], told[1])
     unit, _dot, name = path.partition(".")
-    return getattr(sheets[unit][0], name)
+    found = getattr(sheets[unit][0], name)
+    if found is None:
+        raise InputError(_("'{path}' has no value in this line.").format(path=path), path=path)
+    return found
 
 
 def _of_stream(line: Flowsheet, path: str) -> tuple[Link, str] | None:

@@ -15,6 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -26,6 +27,7 @@ from granum.core.parameters import Parameter
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
 from granum.flowsheet.ladder import RUNGS, at_rung, beginning
+from granum.flowsheet.solving import no_stream
 from granum.flowsheet.specifications import Designed, Target
 from granum.flowsheet.stream_figures import (
     changed,
@@ -171,7 +173,24 @@ class LineSubject(Subject):
             for p in type(self.sheet.units[unit]).card.outputs
             if p.kind is not None and not p.series
         ]
+        unsaid = self.kept("unsaid", self._unsaid)
+        own = [path for path in own if path not in unsaid]
         return tuple(dict.fromkeys((*(t.vary for t in self.targets), *own, *self.quantities)))
+
+    def _unsaid(self) -> frozenset[str]:
+        """Results that have no value with these settings, such as the use of a washing capacity where none is
+        declared.
+        """
+        streams = dict.fromkeys((link.name for link in self.sheet.links), no_stream(self.sheet))
+        found: set[str] = set()
+        for name, unit in self.sheet.units.items():
+            may = [p.name for p in type(unit).card.outputs if p.optional]
+            if may:
+                inlets = self.sheet.inlets_of(name, streams)
+                with flags.collect():  # of what does not flow
+                    told = jax.eval_shape(lambda given, unit=unit: unit.operate(**given).figures, inlets)
+                found |= {f"{name}.{result}" for result in may if getattr(told, result) is None}
+        return frozenset(found)
 
     def taken(self) -> tuple[str, ...]:
         """What the units and the whole line take of each utility, which is shown when it is asked for."""

@@ -265,7 +265,14 @@ class Subject(abc.ABC):
                 own, code = found.lookup, found.code
 
                 def lookup(path: str) -> Any:
-                    return self.quantities[path].value(lookup) if path in self.quantities else own(path)
+                    if path in self.quantities:
+                        return self.quantities[path].value(lookup)
+                    value = own(path)
+                    if value is None:
+                        raise InputError(
+                            _("'{path}' has no value in this line.").format(path=path), path=path
+                        )
+                    return value
 
                 figures = jnp.stack([jnp.asarray(lookup(path), dtype=float) for path in outputs])
             beyond = [jnp.any(record.mask) for record in records if record.bit == flags.EXTRAPOLATED]
