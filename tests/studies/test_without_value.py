@@ -32,4 +32,6 @@ def test_what_there_is_not_is_refused_by_name() -> None:
         line.solve().figure(RISE)
     wanted = f'vary = "nutsche.area"\nso_that = "{RISE}"\nequals = "10 min"\nlower = 0.1\nupper = 10\n'
     with pytest.raises(InputError, match=f"'{RISE}' has no value"):
+        gr.size(NUTSCHE, pressure_rise_time="10 min")
+    with pytest.raises(InputError, match=f"'{RISE}' has no value"):
         read_text(f"{line.text}\n[specifications.rise]\n{wanted}").solve()

@@ -23,7 +23,7 @@ from granum.cases.reading import read_text
 from granum.cases.sections import with_table
 from granum.core import registry
 from granum.core.conversion import convert
-from granum.core.errors import ApplicabilityError, ConvergenceError, InputError, unknown_name
+from granum.core.errors import ApplicabilityError, ConvergenceError, InputError, unknown_name, without_value
 from granum.core.i18n import _, quoted
 from granum.core.parameters import Parameter
 from granum.flowsheet.findings import unanswered
@@ -275,11 +275,13 @@ def _looking(line: Line, name: str, setting: str, figure: str) -> Callable[[np.n
     }
     unit = line.sheet.units[name]
 
-    def one(value: Any) -> Any:
-        trial = eqx.tree_at(lambda u: getattr(u, setting), unit, value)
+    def one(size: Any) -> Any:
+        trial = eqx.tree_at(lambda u: getattr(u, setting), unit, size)
         found = trial.operate(**feeds)
-        value = jnp.asarray(getattr(found.figures, figure), dtype=float)
-        return jnp.where(unanswered(found.records), jnp.nan, value)
+        told = getattr(found.figures, figure)
+        if told is None:
+            raise without_value(f"{name}.{figure}")
+        return jnp.where(unanswered(found.records), jnp.nan, jnp.asarray(told, dtype=float))
 
     look = jax.jit(jax.vmap(one))
     return lambda x: np.asarray(look(jnp.asarray(x)))

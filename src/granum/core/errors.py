@@ -137,6 +137,11 @@ def unknown_name(
     return InputError(message, name=name, did_you_mean=close, as_it_is=None if quantities else True)
 
 
+def without_value(path: str) -> InputError:
+    """The one error for a result that a unit has only with other settings."""
+    return InputError(_("'{path}' has no value in this line.").format(path=path), path=path)
+
+
 def reason_of(problem: OSError) -> str:
     """Why the system refuses, in the current language."""
     return _(problem.strerror) if problem.strerror else str(problem)

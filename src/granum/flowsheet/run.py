@@ -16,7 +16,7 @@ import numpy as np
 
 from granum.core import flags, notebooks, record_steps
 from granum.core.conversion import convert
-from granum.core.errors import ConvergenceError, InputError, nearest
+from granum.core.errors import ConvergenceError, InputError, nearest, without_value
 from granum.core.formulas import Result
 from granum.core.i18n import _
 from granum.core.packing import as_arrays, compiled
@@ -417,7 +417,7 @@ class Run:
                 message += " " + _("Did you mean '{close}'?").format(close=close)
             raise InputError(message, path=path)
         if known[path] is None:
-            raise InputError(_("'{path}' has no value in this line.").format(path=path), path=path)
+            raise without_value(path)
         return float(known[path])
 
     def sought(self) -> Iterator[tuple[str, Parameter, float]]:

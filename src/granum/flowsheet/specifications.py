@@ -9,7 +9,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core.errors import InputError, unknown_name
+from granum.core.errors import InputError, unknown_name, without_value
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.flowsheet.plan import Link
@@ -58,7 +58,7 @@ def figure(line: Flowsheet, sheets: Mapping[str, Any], streams: Mapping[str, Str
     unit, _dot, name = path.partition(".")
     found = getattr(sheets[unit][0], name)
     if found is None:
-        raise InputError(_("'{path}' has no value in this line.").format(path=path), path=path)
+        raise without_value(path)
     return found
 
 

@@ -20,7 +20,7 @@ import numpy as np
 import granum
 from granum.core import flags, registry
 from granum.core.conversion import Binder, convert
-from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.errors import GranumError, InputError, unknown_name, without_value
 from granum.core.i18n import _, quoted
 from granum.core.parameters import Parameter
 from granum.core.stand_ins import not_varied
@@ -269,9 +269,7 @@ class Subject(abc.ABC):
                         return self.quantities[path].value(lookup)
                     value = own(path)
                     if value is None:
-                        raise InputError(
-                            _("'{path}' has no value in this line.").format(path=path), path=path
-                        )
+                        raise without_value(path)
                     return value
 
                 figures = jnp.stack([jnp.asarray(lookup(path), dtype=float) for path in outputs])
