@@ -407,8 +407,8 @@ class Run:
         """
         known: dict[str, Any] = {}
         for unit, report in self.units.items():
-            told = (*report.utilities(), *report.figures())
-            known |= {f"{unit}.{p.name}": value for p, value in told}
+            told = report.uses | report.values._asdict()
+            known |= {f"{unit}.{name}": value for name, value in told.items()}
         if path.startswith(f"{UTILITIES}."):
             known |= {f"{UTILITIES}.{p.name}": value for p, value in self.totals()}
         if path not in known:
