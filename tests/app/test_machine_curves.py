@@ -33,6 +33,14 @@ def test_a_wider_cyclone_catches_less_and_the_present_one_is_on_the_curve() -> N
     assert not found.steep  # a share has a linear axis however small it gets
 
 
+def test_a_figure_without_a_value_is_not_among_those_to_draw() -> None:
+    """A nutsche declares no washing capacity, and its pump has no largest flow unless one is given."""
+    assert drawn("filtration.nutsche")["output"] == "capacity_use"
+    assert {"wash_use", "pressure_rise_time"}.isdisjoint(Machine("filtration.nutsche", {}).figures)
+    pumped = Machine("filtration.nutsche", {"filtrate_flux_largest": "0.2 mm/s"})
+    assert "pressure_rise_time" in pumped.figures
+
+
 def test_what_enters_can_run_too_and_is_told_by_its_inlet() -> None:
     machine = Machine("streams.heater", {})
     found = machine.curve(*machine.chosen("feed.temperature", "heat_duty"))

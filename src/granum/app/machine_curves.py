@@ -44,7 +44,7 @@ class Machine:
 
     def _told(self, run: Run) -> Iterator[tuple[Parameter, float]]:
         for p, value in run.units[self.name].figures():
-            if p.kind is not None and not p.series and np.ndim(value) == 0:
+            if p.kind is not None and not p.series and value is not None and np.ndim(value) == 0:
                 yield p, float(value)
 
     def _settings(self) -> Iterator[tuple[str, Parameter]]:
@@ -112,7 +112,7 @@ class Machine:
         for i in refining(x.size, int(np.searchsorted(x, at))):
             run = self.solved(against, float(x[i]))
             if run is not None:
-                y[i] = next(value for q, value in self._told(run) if q.name == output)
+                y[i] = {q.name: value for q, value in self._told(run)}.get(output, np.nan)
                 trusted[i] = all(check.ok for check in run.units[self.name].checks) and not run.flags
             done.append(i)
             if time.perf_counter() - began > (PATIENCE if len(done) >= FEWEST else LONGEST):
