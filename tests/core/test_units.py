@@ -414,3 +414,15 @@ def test_permeabilities_are_printed_as_they_are_read(unit: str, printed: str) ->
 )
 def test_powers_are_raised_as_they_were_typed(unit: str, printed: str) -> None:
     assert units.pretty_unit(unit) == printed
+
+
+def test_no_number_is_shown_in_customary_units_unless_they_are_asked_for() -> None:
+    """A tenth of a kilogram an hour had been 0.2 lb/h."""
+    usual = [(kind, unit) for kind in KINDS.values() for unit in kind.units if unit not in units.CUSTOMARY]
+    shown = {
+        (kind.name, units.display_unit(value, kind, unit))
+        for kind, unit in usual
+        for value in np.logspace(-12, 12, 49)
+    }
+    assert {(name, unit) for name, unit in shown if unit in units.CUSTOMARY} == set()
+    assert units.display_unit(0.09 / 3600.0, KINDS["MassFlow"], "kg/h") == "kg/h"

@@ -477,7 +477,7 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
         return best_unit(middle, kind)
     # what is usual per cubic meter stays so: a gas has µg/m³ where a liquid has µg/L
     _top, slash, below = usual.partition("/")
-    alike = [u for u in kind.units if slash and u.partition("/")[2] == below]
+    alike = [u for u in kind.units if slash and u.partition("/")[2] == below and u not in CUSTOMARY]
     # 0.08 m/h, not 22 µm/s; 12 s, not 0.2 min
     least = 1.0 if usual == "min" else 0.01 if slash and not set(alike) - {usual} else 0.1
     for unit in (usual, *alike):
