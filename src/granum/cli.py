@@ -444,7 +444,7 @@ def chart(
     thing = registry.find(key)
     if thing.card.sort != "chart":
         raise InputError(
-            _("'{key}' is a {sort}, not a chart; 'granum list --sort chart' shows those.").format(
+            _("'{key}' ({sort}) is not a chart; 'granum list --sort chart' shows those.").format(
                 key=key, sort=_(thing.card.sort)
             )
         )

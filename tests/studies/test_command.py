@@ -172,7 +172,7 @@ def test_tables_are_headed_with_units_that_look_like_marks_of_style() -> None:
         ([*BELT, "aera=1..2m2"], "Did you mean 'area'"),
         ([*BELT, "area=1..2m2", "pressure_drop="], "needs 'pressure_drop'"),
         ([*BELT, "solid.PVC.density=1..2g/cm3"], "belongs to a material"),
-        (["filtration.leaf_test", "area=1..2m2"], "is a lab test"),
+        (["filtration.leaf_test", "area=1..2m2"], "(lab test)"),
         ([str(SETTLING), "--sobol"], "--sobol is of a card"),
         (["none.toml"], "cannot be read"),
         ([str(SETTLING), "spred"], "Did you mean 'spread'?"),

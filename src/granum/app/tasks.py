@@ -65,9 +65,7 @@ def evaluable(key: str, sorts: tuple[str, ...]) -> Any:
     """The declared thing of a key, refused when it is of another sort."""
     thing = registry.find(key)
     if thing.card.sort not in sorts:
-        raise InputError(
-            _("'{key}' is a {sort}; it cannot be used here.").format(key=key, sort=_(thing.card.sort))
-        )
+        raise InputError(_("'{key}' ({sort}) cannot be used here.").format(key=key, sort=_(thing.card.sort)))
     return thing
 
 

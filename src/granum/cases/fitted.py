@@ -40,7 +40,7 @@ def _fitted(table: FitTable, folder: Path) -> Fit:
     thing: Any = registry.find(table.test)
     if thing.card.sort != "lab test":
         raise InputError(
-            _("'{key}' is a {sort}, not a lab test; 'granum list --sort \"lab test\"' shows those.").format(
+            _("'{key}' ({sort}) is not a lab test; 'granum list --sort \"lab test\"' shows those.").format(
                 key=table.test, sort=_(thing.card.sort)
             )
         )

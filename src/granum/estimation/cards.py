@@ -71,7 +71,7 @@ class CardData:
         thing = registry.find(thing) if isinstance(thing, str) else thing
         if thing.card.sort not in ("formula", "law"):
             raise InputError(
-                _("'{key}' is a {sort}: formulas, laws and lab tests can be fitted.").format(
+                _("'{key}' ({sort}): formulas, laws and lab tests can be fitted.").format(
                     key=thing.card.key, sort=_(thing.card.sort)
                 )
             )

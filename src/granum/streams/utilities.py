@@ -27,7 +27,6 @@ HEURISTICS = "turton2018, ch. 11"
 MOTOR, PUMP, FAN, VACUUM, COMPRESSOR = 0.9, 0.7, 0.65, 0.5, 0.75
 AMBIENT = 298.15  # K, above which gas counts as heated
 AIR_VISCOSITY = 1.8e-5  # Pa s
-AIR_MOLAR_MASS = 0.028966  # kg/mol
 # K: saturated steam at 6, 11 and 42 bar, and what cools; ten or five kelvin apart from the process
 STEAM = {"low_pressure_steam": 432.0, "medium_pressure_steam": 457.0, "high_pressure_steam": 526.0}
 COLD = {"cooling_water": 303.15, "chilled_water": 278.15, "brine": 253.15, "deep_cold": 223.15}
@@ -81,7 +80,9 @@ def kept_empty(volume: Any, pressure: Any) -> Any:
     """Electric power of a pump that keeps a vacuum in a plant of a volume against the air that leaks in, W;
     the vapor that comes with that air is left out.
     """
-    air = mass_flow_leakage_hei.function(volume, pressure) / AIR_MOLAR_MASS
+    from granum.humid_gas.pairs import AIR_WATER  # what has no vacuum need not read it
+
+    air = mass_flow_leakage_hei.function(volume, pressure) / AIR_WATER.gas_molar_mass
     drawn = air * GAS_CONSTANT * AMBIENT / jnp.maximum(pressure, 1.0)
     return evacuated(drawn, pressure)
 

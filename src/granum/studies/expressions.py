@@ -220,7 +220,7 @@ def _from_card(name: str, table: dict[str, Any], where: str) -> Quantity:
     card = registry.find(str(table["card"]))
     if card.card.sort != "formula":
         raise InputError(
-            _("{where}: '{key}' is a {sort}, not a formula.").format(
+            _("{where}: '{key}' ({sort}) is not a formula.").format(
                 where=where, key=card.card.key, sort=_(card.card.sort)
             )
         )

@@ -77,9 +77,7 @@ def _asked(
     """Input and result that are meant, the wanted result in SI, and the other inputs."""
     card = thing.card
     if card.sort not in ("formula", "procedure", "law") or not hasattr(thing, "evaluate"):
-        raise InputError(
-            _("'{key}' is a {sort}; it cannot be used here.").format(key=card.key, sort=_(card.sort))
-        )
+        raise InputError(_("'{key}' ({sort}) cannot be used here.").format(key=card.key, sort=_(card.sort)))
     p = next((q for q in card.parameters if q.name == name), None)
     if p is None:
         names, where = [q.name for q in card.parameters], _("for {owner}").format(owner=card.key)

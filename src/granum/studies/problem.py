@@ -102,7 +102,7 @@ def search_of(
     subject = subject_of(thing, fixed)
     if isinstance(subject, FormulaSubject) and not subject.pure:
         raise InputError(
-            _("'{key}' is a {sort}: it has no derivatives and cannot be optimized.").format(
+            _("'{key}' ({sort}): it has no derivatives and cannot be optimized.").format(
                 key=subject.thing.card.key, sort=_("procedure")
             )
         )

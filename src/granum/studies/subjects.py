@@ -339,7 +339,7 @@ class FormulaSubject(Subject):
         if thing.card.sort not in ("formula", "law", "procedure"):
             raise InputError(
                 _(
-                    "'{key}' is a {sort}: a study takes a formula, a law, a procedure, or a case file "
+                    "'{key}' ({sort}): a study takes a formula, a law, a procedure, or a case file "
                     "with the equipment in it."
                 ).format(key=thing.card.key, sort=_(thing.card.sort))
             )

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
-from granum.core.constants import STANDARD_ATMOSPHERE, STANDARD_GRAVITY
+from granum.core.constants import HOUR, STANDARD_ATMOSPHERE, STANDARD_GRAVITY
 from granum.core.kinds import (
     Density,
     DynamicViscosity,
@@ -27,7 +27,7 @@ from granum.core.kinds import (
 Efficiency = Annotated[PositiveNumber, Within(0.01, 1.0)]
 HeatCapacityRatio = Annotated[PositiveNumber, Within(1.01, 1.7)]
 _DRAWN = {"pressure_inlet": (2e4, 1.0e5), "pressure_outlet": (1.01e5, 3e5), "machine_efficiency": (0.4, 0.8)}
-TORR, PER_HOUR = 133.322368, 1.0 / 3600.0
+TORR = 133.322368
 LEAKS = ((1.0, 0.124), (3.0, 0.248), (20.0, 0.403), (90.0, 0.713))  # below so many torr, kg/h and m³
 LEAKS_MOST = 0.947
 EXPANDS = "What leaves a compressor has at least the pressure of what enters."
@@ -215,4 +215,4 @@ def mass_flow_leakage_hei(volume: Volume, pressure: Pressure) -> MassFlow:
     """
     torr = jnp.asarray(pressure) / TORR
     per = jnp.select([torr < step for step, _k in LEAKS], [k for _step, k in LEAKS], LEAKS_MOST)
-    return jnp.where(pressure < STANDARD_ATMOSPHERE, per * volume ** (2.0 / 3.0), 0.0) * PER_HOUR
+    return jnp.where(pressure < STANDARD_ATMOSPHERE, per * volume ** (2.0 / 3.0), 0.0) / HOUR
