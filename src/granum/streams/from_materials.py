@@ -281,7 +281,9 @@ def _crystallizing(
     """Each dissolved solute and its system with those whose crystals dissolve to it: itself, then its other
     crystal forms.
     """
-    forms = [known.solute(key) for key, entry in known.entries("solute").items() if entry.form_of]
+    dissolved = {system.name for system in systems.values()}
+    entries = known.entries("solute").items() if dissolved else ()
+    forms = [known.solute(key) for key, entry in entries if entry.form_of in dissolved]
     others = [
         (name, system, form)
         for name, system in systems.items()
